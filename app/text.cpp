@@ -80,6 +80,18 @@ std::string with_unit(double value, const std::string& unit) {
     return fmt::format("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
+std::string range_text(double low, double high, const std::string& unit) {
+    constexpr int kLeast = 6, kMost = 12; // digits
+    const auto power = [](double number) {
+        return number == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(number))));
+    };
+    const double apart = std::abs(high - low), larger = std::max(std::abs(low), std::abs(high));
+    const int digits = std::isfinite(apart) && apart > 0
+                           ? std::clamp(power(larger) - power(apart) + 4, kLeast, kMost)
+                           : kLeast;
+    return fmt::format("{:.{}g} to {:.{}g}{}", low, digits, high, digits, with_space(unit));
+}
+
 std::string upper_text(double bound, const std::string& unit) {
     if (!(bound > 0))
         return with_unit(bound, unit);

@@ -30,6 +30,9 @@ std::string upper_text(double bound, const std::string& unit);
 /// `12.5 ms`, `0.0341`, `1.2e+07`: a number with its unit, short enough for a label.
 std::string with_unit(double value, const std::string& unit);
 
+/// `99960.6 to 102725 Pa`: both ends in as many digits, which tell them apart to a thousandth of the range.
+std::string range_text(double low, double high, const std::string& unit = {});
+
 /// `64 x 64 x 64, 10 steps`: the vertices along each axis.
 std::string grid_words(const index::SeriesInfo& info);
 

@@ -2,9 +2,11 @@
 #include "app/config/series_names.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <fnmatch.h>
@@ -117,6 +119,19 @@ fs::path pattern_in(const fs::path& folder, const std::string& pattern) {
 
 bool is_pattern(const std::string& name) {
     return name.find_first_of("*?[") != std::string::npos;
+}
+
+std::string said_name(const std::filesystem::path& data) {
+    std::string name = data.filename().string();
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kSaid{
+        {{"[0-9]*", "*"}, {"[[]", "["}, {"[*]", "*"}, {"[?]", "?"}}};
+    for (std::size_t at = 0; at < name.size(); ++at)
+        for (const auto& [pattern, words] : kSaid)
+            if (name.compare(at, pattern.size(), pattern) == 0) {
+                name.replace(at, pattern.size(), words);
+                break;
+            }
+    return name;
 }
 
 } // namespace isochron::app

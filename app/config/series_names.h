@@ -33,4 +33,7 @@ std::filesystem::path pattern_in(const std::filesystem::path& folder, const std:
 /// Whether a name is a pattern that may stand for several files.
 bool is_pattern(const std::string& name);
 
+/// The name of data as people read it, without the folder: `t*.vti` for the pattern `t[0-9]*.vti`.
+std::string said_name(const std::filesystem::path& data);
+
 } // namespace isochron::app

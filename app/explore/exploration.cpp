@@ -1,6 +1,7 @@
 // Opens what a session needs, runs it, and keeps what is left of it.
 #include "app/explore/exploration.h"
 
+#include "app/config/series_names.h"
 #include "app/config/tracker_setup.h"
 #include "app/end_in_time.h"
 #include "app/explore/control_options.h"
@@ -170,7 +171,7 @@ void Exploration::open_data() {
 
 /// The name of the data, as the window says it.
 std::string Exploration::short_name() const {
-    return std::filesystem::path(options_.data_name).filename().string();
+    return said_name(options_.data_name);
 }
 
 /// Whether the window says what is being done before there is a picture.
@@ -272,7 +273,7 @@ void Exploration::open_session() {
     if (options_.report)
         session_->log().report_to(job_.own_file(*options_.report));
     session_->outputs().set_screenshots(options_.screenshots);
-    session_->set_data_name(short_name());
+    session_->set_data_name(std::filesystem::path(options_.data_name).filename().string());
     if (config_.cluster.swap_group && job_.size() > 1)
         stereo::join_swap_group(session_->outputs().windows());
 }

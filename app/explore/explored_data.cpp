@@ -7,6 +7,7 @@
 #include "app/indexing/kept_index.h"
 #include "app/kept/user_memory.h"
 #include "app/loop/data_window.h"
+#include "app/text.h"
 #include "index/file/index_series.h"
 #include "index/system/user_folders.h"
 
@@ -52,11 +53,10 @@ std::optional<std::size_t> number_of(const std::vector<ArrayOffer>& offers,
 std::vector<ListedArray> listed(const std::vector<ArrayOffer>& offers) {
     std::vector<ListedArray> lines;
     for (const ArrayOffer& offer : offers)
-        lines.push_back({offer.name, offer.shape, offer.unit,
-                         offer.range
-                             ? fmt::format("{:.4g} to {:.4g}", (*offer.range)[0], (*offer.range)[1])
-                             : std::string(),
-                         offer.fault});
+        lines.push_back(
+            {offer.name, offer.shape, offer.unit,
+             offer.range ? range_text((*offer.range)[0], (*offer.range)[1]) : std::string(),
+             offer.fault});
     return lines;
 }
 
@@ -128,8 +128,8 @@ std::optional<std::string> wait_for_index(Indexing& indexing, const stereo::Wind
     const ArrayChoice choice{
         .first = [&] { return number_of(offers(), memory.array_of(data)).value_or(0); },
         .choose = [&](std::size_t chosen) { choose(offers(), chosen); }};
-    const Waited waited = wait_for_data(windows, fs::path(options.data_name).filename().string(),
-                                        progress, page_options(config), choice);
+    const Waited waited = wait_for_data(windows, said_name(options.data_name), progress,
+                                        page_options(config), choice);
     canceled = waited == Waited::canceled;
     if (waited != Waited::ready)
         return std::nullopt;

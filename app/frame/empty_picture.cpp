@@ -79,7 +79,7 @@ std::optional<EmptyBecause> reason(const PictureFacts& facts) {
 }
 
 std::string range_words(double low, double high, bool about) {
-    return fmt::format("{}{:.4g} to {:.4g}", about ? "about " : "", low, high);
+    return (about ? "about " : "") + range_text(low, high);
 }
 
 void offer(EmptyPicture& empty, std::string way, Commands commands) {

@@ -1,6 +1,7 @@
 // Undo and redo.
 #include "app/frame/history.h"
 
+#include "app/text.h"
 #include "interaction/input/actions.h"
 #include "interaction/navigation/navigation.h"
 
@@ -72,7 +73,7 @@ std::string surface_words(const ExplorerState& before, const ExplorerState& afte
         return std::ranges::mismatch(old, now, {}, member, member);
     };
     if (const auto at = differs(&interaction::Isosurface::isovalue); at.in1 != old.end())
-        return fmt::format("isovalue {:.4g} to {:.4g}", at.in1->isovalue, at.in2->isovalue);
+        return "isovalue " + range_text(at.in1->isovalue, at.in2->isovalue);
     if (const auto at = differs(&interaction::Isosurface::opacity); at.in1 != old.end())
         return fmt::format("opacity {:.0f} to {:.0f} %", 100 * at.in1->opacity,
                            100 * at.in2->opacity);

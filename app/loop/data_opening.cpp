@@ -81,7 +81,7 @@ void DataOpening::cancel_on_escape(Session& session,
 }
 
 std::string DataOpening::note() const {
-    return opening_ ? fmt::format("opening {}; Escape cancels", opening_->data.filename().string())
+    return opening_ ? fmt::format("opening {}; Escape cancels", said_name(opening_->data))
                     : std::string();
 }
 

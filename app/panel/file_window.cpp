@@ -150,7 +150,7 @@ const ListedFile* FileWindow::draw_recent(const std::vector<const ListedFile*>& 
         const float left = corner.x + small_picture_size().x + 10.0f;
         ImGui::SetCursorPos({left, corner.y + (height - 2 * row) / 2});
         const float width = ImGui::GetContentRegionMax().x - left;
-        fitted_text(line.path.filename().string(), width, color_of(Ink::text));
+        fitted_text(said_name(line.path), width, color_of(Ink::text));
         ImGui::SetCursorPos({left, corner.y + height / 2});
         fitted_text(line.path.parent_path().string(), width, color_of(Ink::dim));
         ImGui::SetCursorPos({corner.x, corner.y + height + ImGui::GetStyle().ItemSpacing.y});

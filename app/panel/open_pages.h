@@ -101,6 +101,9 @@ class OpenPages {
     /// Returned once.
     FoundControl take_found() { return std::exchange(found_, {}); }
 
+    /// Whether the user is asked whether to quit.
+    bool leaving() const { return leaving_; }
+
     /// Whether cards have come, gone or changed in the last layout: Dear ImGui shows new windows late.
     bool turned() const { return turned_; }
 

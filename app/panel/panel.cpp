@@ -67,8 +67,9 @@ void section_icons(std::optional<std::size_t>& open) {
             open = open == i ? std::nullopt : std::optional(i);
 }
 
-void section_over_picture(const PanelModel& model, const PanelView& view, PanelPages& pages,
-                          Commands& commands) {
+/// @return its lower right corner
+glm::vec2 section_over_picture(const PanelModel& model, const PanelView& view, PanelPages& pages,
+                               Commands& commands) {
     constexpr float kWidth = 300.0f;
     const Section& section = sections()[*view.section];
     const PanelBox& room = view.layout.picture;
@@ -83,8 +84,10 @@ void section_over_picture(const PanelModel& model, const PanelView& view, PanelP
     ImGui::PushID(section.name);
     section.lay_out(model, pages, commands);
     ImGui::PopID();
+    const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
     ImGui::End();
     ImGui::PopStyleVar();
+    return {corner.x + size.x, corner.y + size.y};
 }
 
 /// What lies over the picture while the panel is shown.
@@ -92,11 +95,16 @@ void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, C
     const PanelBox free = view.layout.picture;
     view.free = {{free.low.x, free.low.y + 10.0f}, free.high};
     view.lowest = view.free.low.y;
-    if (view.layout.folded && view.section) {
-        section_over_picture(model, view, pages, commands);
-        return;
-    }
     constexpr float kApart = 8.0f, kPadding = 8.0f, kLeast = 280.0f; // for messages
+    const auto keep_off = [&](const glm::vec2& corner) {
+        view.lowest = std::max(view.lowest, corner.y);
+        if (view.free.high.x - corner.x >= kLeast)
+            view.free.low.x = corner.x;
+        else
+            view.free.low.y = corner.y + 6.0f;
+    };
+    if (view.layout.folded && view.section)
+        return keep_off(section_over_picture(model, view, pages, commands));
     const glm::vec2 chip = state_chip(model, free, view.statistics);
     gap_window(model, free);
     const float left_of_cube = view_cube(model, free, commands);
@@ -122,12 +130,12 @@ void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, C
     }
     if (!view.statistics)
         return;
-    const glm::vec2 corner = statistics_window(model, free, below, pages);
-    view.lowest = std::max(view.lowest, corner.y);
-    if (left_of_cube - corner.x >= kLeast)
-        view.free.low.x = corner.x;
-    else
-        view.free.low.y = corner.y + 6.0f;
+    // Below them there is room for messages and for what a gap says, where there is none beside.
+    constexpr float kForWords = 190.0f, kFewLines = 48.0f;
+    const bool beside = view.free.high.x - statistics_end(free) >= kLeast;
+    const float highest = free.high.y - below - (beside ? 0.0f : kForWords);
+    if (highest >= kFewLines)
+        keep_off(statistics_window(model, free, below, highest, pages));
 }
 
 } // namespace

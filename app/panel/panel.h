@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 namespace isochron::app {
 
@@ -19,7 +20,14 @@ struct PanelView {
     /// Section that the search points at until the next click; kSections: the bar of the time.
     std::optional<std::size_t> pointed;
     float lowest = 0; ///< where chip, tools, statistics and cube end
-    PanelBox free;    ///< what chip, tools, statistics and cube leave of the picture
+    PanelBox free;    ///< what chip, tools, statistics, section and cube leave of the picture
+
+    /// Closes the section or the statistics over the picture. @return whether one was open
+    bool close_part() {
+        const bool shown = layout != PanelLayout{};
+        return shown && (layout.folded && section ? std::exchange(section, {}).has_value()
+                                                  : std::exchange(statistics, false));
+    }
 };
 
 /// Lays the panel out in the current Dear ImGui frame. @return commands of the user

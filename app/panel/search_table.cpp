@@ -231,8 +231,8 @@ constexpr OtherNames kOtherNames[] = {
      "playback speed, play speed, animation speed, slower, faster, time scale, slow motion, "
      "tempo, pace, duration"},
     {"rate", "fps, frames per second, steps per second, frame rate of playing, animation rate"},
-    {"faster", "speed up, playback speed, double speed"},
-    {"slower", "slow down, slow motion, playback speed, half speed"},
+    {"faster", "faster, speed up, playback speed, double speed"},
+    {"slower", "slower, slow down, slow motion, playback speed, half speed"},
     {"speed_unit", "real time, sequence, snap to time steps, play mode, animation mode"},
     {"every", "stride, skip frames, every nth, time stride, subsample time, frame step"},
     {"between_steps",
@@ -485,7 +485,7 @@ void add_surfaces(Lines& lines) {
                    .words = "remove the surface",
                    .commands = without_surface(model, model.asked.picked)});
     lines.control("histogram", "histogram of the values",
-                  fmt::format("{:.4g} to {}", model.stats.low, with_unit(model.stats.high, unit)),
+                  range_text(model.stats.low, model.stats.high, unit),
                   kSurfaces);
 }
 
@@ -526,7 +526,7 @@ void add_coloring(Lines& lines) {
         });
     const std::array<double, 2>& range = model.colors.range;
     lines.control("color_range", "range of the colors",
-                  now.range ? fmt::format("{:.4g} to {:.4g}", (*now.range)[0], (*now.range)[1])
+                  now.range ? range_text((*now.range)[0], (*now.range)[1])
                   : now.percentiles ? "percentiles"
                                     : "of all values",
                   kColor);

@@ -19,9 +19,9 @@ struct MeshesAtHand {
     std::array<std::size_t, index::kMeshLevels> triangles{};
     double quads = 1;           ///< share of all cells that is drawn as quads where no mesh is
     Milliseconds quads_take{0}; ///< expected; 0: not known
-    /// Surfaces that let light through: quads of some cells lie over each other in several layers
-    /// with gaps, and of all cells a share is left out for the light; both look like scraps, so any
-    /// mesh is more like them.
+    /// Surfaces that let light through: what lies behind them is seen through the gaps between quads
+    /// of some cells, and quads of all cells are flat pieces with rims in steps; any mesh is more
+    /// like the surfaces.
     bool translucent = false;
     Milliseconds budget{0};
     Milliseconds longest{0}; ///< that a picture may take before scraps are preferred

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -17,14 +18,12 @@ constexpr float kAside = 0.1f;   ///< least gap between two texts that are partl
 constexpr float kInLine = 0.6f;  ///< least gap between two texts on one line
 constexpr float kOneLine = 0.5f; ///< texts are on one line if their heights overlap by more
 
-/// The rectangle that a label covers in each view.
-using Covered = std::vector<std::optional<TextRectangle>>;
-
 class Room {
   public:
     Room(const render::GlyphAtlas& atlas, const glm::mat4& room_from_model,
-         std::span<const render::View> views, float share)
-        : atlas_(atlas), room_from_model_(room_from_model), views_(views), share_(share) {}
+         std::span<const render::View> views, float share, std::vector<Covered> taken)
+        : atlas_(atlas), room_from_model_(room_from_model), views_(views), share_(share),
+          taken_(std::move(taken)) {}
 
     Covered covered(const render::Label& label) const {
         Covered result;
@@ -75,19 +74,20 @@ class Room {
         }
         return label;
     }
-    /// The title inside the pictures, as near its place as it stands on the fewest numbers.
+    /// The title inside the pictures, as near its place as it stands on the fewest numbers; where other
+    /// words leave no room beside the box, over the box.
     render::Label beside_numbers(const render::Label& title,
                                  std::span<const AxisLabels> axes) const {
         std::optional<render::Label> best;
         std::ptrdiff_t fewest = 0;
-        for (const float farther : {1.0f, 1.3f, 1.7f, 2.2f, 2.8f}) {
+        constexpr std::ptrdiff_t kOtherWords = 100; // worse than all numbers
+        const auto consider = [&](float farther, float higher) {
             render::Label moved = title;
-            moved.offset *= farther;
+            moved.offset = farther * moved.offset + glm::vec2(0.0f, higher);
             moved = moved_inside(moved);
             const Covered here = covered(moved);
-            constexpr std::ptrdiff_t kOtherTitle = 100; // worse than all numbers
             std::ptrdiff_t on =
-                kOtherTitle * std::ranges::count_if(
+                kOtherWords * std::ranges::count_if(
                                   taken_, [&](const Covered& taken) { return touch(here, taken); });
             for (const AxisLabels& axis : axes)
                 on += std::ranges::count_if(axis.numbers, [&](const AxisLabels::Number& number) {
@@ -97,7 +97,12 @@ class Room {
                 best = moved;
                 fewest = on;
             }
-            if (fewest == 0)
+        };
+        for (const float higher : {0.0f, 2.0f, -2.0f, 5.0f, -5.0f}) { // heights of the text
+            for (const float farther : {1.0f, 1.3f, 1.7f, 2.2f, 2.8f, -1.0f, -2.0f, -4.0f})
+                if (!best || fewest >= (farther > 0.0f && higher == 0.0f ? 1 : kOtherWords))
+                    consider(farther, higher);
+            if (fewest < kOtherWords)
                 break;
         }
         return *best;
@@ -162,8 +167,9 @@ std::optional<TextRectangle> covered_by(const render::Label& label, float height
 std::vector<render::Label> labels_with_room(std::span<const AxisLabels> axes,
                                             const render::GlyphAtlas& atlas,
                                             const glm::mat4& room_from_model,
-                                            std::span<const render::View> views, float share) {
-    Room room(atlas, room_from_model, views, share);
+                                            std::span<const render::View> views, float share,
+                                            std::vector<Covered> taken) {
+    Room room(atlas, room_from_model, views, share, std::move(taken));
     for (const AxisLabels& axis : axes)
         room.take(room.beside_numbers(axis.title, axes));
     // Two numbers of each axis first, as far apart as there is room: of those that are spread evenly,
@@ -174,10 +180,10 @@ std::vector<render::Label> labels_with_room(std::span<const AxisLabels> axes,
         std::vector<render::Label> all;
         for (const AxisLabels::Number& number : axis.numbers)
             all.push_back(number.label);
-        int taken = 0;
+        int shown = 0;
         for (const auto& numbers : {even.back(), all}) {
             const auto take = [&](const render::Label& label) {
-                return taken < 2 && room.take(label) && ++taken > 0;
+                return shown < 2 && room.take(label) && ++shown > 0;
             };
             const auto first = std::ranges::find_if(numbers, take);
             std::find_if(numbers.rbegin(), std::make_reverse_iterator(first), take);

@@ -20,6 +20,9 @@ struct TextRectangle {
     bool operator==(const TextRectangle&) const = default;
 };
 
+/// What words cover in each view; empty where they are not seen.
+using Covered = std::vector<std::optional<TextRectangle>>;
+
 /// The part of a picture that a line of text covers; empty if its place is behind the eye.
 /// @param height of the text, pixels
 std::optional<TextRectangle> covered_by(const render::Label& label, float height,
@@ -32,10 +35,11 @@ std::optional<TextRectangle> covered_by(const render::Label& label, float height
 /// shown.
 /// @param room_from_model from the labels' coordinates to the room
 /// @param share height of the labels, see `text_height`
+/// @param taken words that stand elsewhere in the picture, such as the legend
 std::vector<render::Label> labels_with_room(std::span<const AxisLabels> axes,
                                             const render::GlyphAtlas& atlas,
                                             const glm::mat4& room_from_model,
                                             std::span<const render::View> views,
-                                            float share = 0.0f);
+                                            float share = 0.0f, std::vector<Covered> taken = {});
 
 } // namespace isochron::app

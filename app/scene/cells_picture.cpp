@@ -24,7 +24,7 @@ Picture without_lines(Picture picture) {
     picture.tools = {};
     picture.guides = {};
     picture.veil = {};
-    picture.value_unit.clear();
+    picture.values = {};
     picture.bounding_box = false;
     picture.orientation = false;
     picture.caption.clear();

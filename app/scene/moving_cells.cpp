@@ -22,6 +22,12 @@ glm::mat4 around_cells(const render::Placement& placement) {
            glm::scale(larger, (1.0f + 2.0f * kBeyond) * placement.extent);
 }
 
+/// Meshes leave out surfaces by number, quads those of no opacity.
+void leave_out(render::CellAppearance& appearance, std::size_t surface) {
+    appearance.drawn &= ~(1u << surface);
+    appearance.surfaces[surface].opacity = 0.0f;
+}
+
 bool has_several_samples(const render::Gl& gl) {
     GLint samples = 0;
     gl.GetIntegerv(GL_SAMPLES, &samples);
@@ -31,8 +37,9 @@ bool has_several_samples(const render::Gl& gl) {
 } // namespace
 
 bool moves_in_layers(const Picture& picture, render::Footprint footprint) {
-    return footprint == render::Footprint::mesh && picture.mesh_level > 0 &&
-           interaction::any_is(picture.isosurfaces, true);
+    const bool moves = footprint == render::Footprint::mesh ? picture.mesh_level > 0
+                                                            : footprint == render::Footprint::quad;
+    return moves && interaction::any_is(picture.isosurfaces, true);
 }
 
 render::Placement MovingCells::placement_of(const Picture& picture) const {
@@ -60,28 +67,33 @@ bool MovingCells::draw_moved(const CellsPicture& kept, const Picture& picture,
 void MovingCells::draw_in_few_pixels(const Cells& cells, const Picture& picture,
                                      std::span<const render::View> views) {
     enlarge_.begin(views, kCellResolutions[picture.resolution], cells.appearance.linear_light);
-    cells.pass.draw(enlarge_.few(), placement_of(picture), cells.buffers, render::Footprint::quad,
-                    cells.appearance);
-    enlarge_.end(views, box_of(picture));
+    const bool layers = moves_in_layers(picture, render::Footprint::quad);
+    if (layers)
+        draw_in_layers(cells, picture, render::Footprint::quad, enlarge_.few());
+    else
+        cells.pass.draw(enlarge_.few(), placement_of(picture), cells.buffers,
+                        render::Footprint::quad, cells.appearance);
+    enlarge_.end(views, box_of(picture), layers);
 }
 
 void MovingCells::draw_in_layers(const Cells& cells, const Picture& picture,
-                                 std::span<const render::View> views) {
+                                 render::Footprint footprint, std::span<const render::View> views) {
     const render::Placement placement = placement_of(picture);
     const auto draw = [&](const render::CellAppearance& appearance) {
-        cells.pass.draw(views, placement, cells.buffers, render::Footprint::mesh, appearance);
+        cells.pass.draw(views, placement, cells.buffers, footprint, appearance);
     };
+    const std::size_t count = picture.isosurfaces.size();
     render::CellAppearance opaque = cells.appearance;
     std::vector<std::size_t> surfaces; // that let light through
     std::vector<float> opacities;
-    for (std::size_t i = 0; i < picture.isosurfaces.size(); ++i)
+    for (std::size_t i = 0; i < count; ++i)
         if (render::is_translucent(opaque.surfaces[i])) {
             surfaces.push_back(i);
             opacities.push_back(opaque.surfaces[i].opacity);
-            opaque.drawn &= ~(1u << i);
+            leave_out(opaque, i);
         }
-    const bool some_opaque = surfaces.size() < picture.isosurfaces.size();
-    if (has_several_samples(gl_)) // all layers, sorted
+    const bool some_opaque = surfaces.size() < count;
+    if (has_several_samples(gl_)) // all layers, sorted, or a share of the quads
         return draw(cells.appearance);
     if (some_opaque)
         draw(opaque);
@@ -89,7 +101,9 @@ void MovingCells::draw_in_layers(const Cells& cells, const Picture& picture,
         views, opacities,
         [&](std::size_t layer) {
             render::CellAppearance one = cells.appearance;
-            one.drawn = 1u << surfaces[layer];
+            for (std::size_t i = 0; i < count; ++i)
+                leave_out(one, i);
+            one.drawn |= 1u << surfaces[layer];
             one.surfaces[surfaces[layer]].opacity = 1.0f;
             draw(one);
         },
@@ -100,9 +114,10 @@ void MovingCells::warm_up(const Picture& picture, std::span<const render::View> 
                           bool linear_light) {
     const glm::mat4 box = box_of(picture);
     enlarge_.begin(views, kCellResolutions.back(), linear_light);
-    enlarge_.end(views, box);
+    enlarge_.end(views, box, false);
     const std::array opacities{0.5f, 0.5f};
-    layers_.draw(views, opacities, [](std::size_t) {}, false, linear_light, box);
+    layers_.draw(
+        views, opacities, [](std::size_t) {}, false, linear_light, box);
     layers_.draw(
         views, std::span(opacities).first(1), [](std::size_t) {}, false, linear_light, box);
     render::RenderTarget small(gl_, {1, 1});

@@ -17,7 +17,7 @@
 namespace isochron::app {
 
 /// Whether surfaces are drawn by their nearest layers: some let light through, and the picture
-/// shows a simplified mesh of them, as only pictures that move do.
+/// shows quads or a simplified mesh of them, as pictures that move do.
 bool moves_in_layers(const Picture& picture, render::Footprint footprint);
 
 class MovingCells {
@@ -36,11 +36,11 @@ class MovingCells {
         const render::CellBuffers& buffers;
         const render::CellAppearance& appearance;
     };
-    /// Draws quads in as few pixels as the picture says.
+    /// Draws quads in as few pixels as the picture says, with layers or without.
     void draw_in_few_pixels(const Cells& cells, const Picture& picture,
                             std::span<const render::View> views);
-    /// Draws a mesh by its nearest layers, opaque surfaces as they are.
-    void draw_in_layers(const Cells& cells, const Picture& picture,
+    /// Draws a mesh or quads by their nearest layers, opaque surfaces as they are.
+    void draw_in_layers(const Cells& cells, const Picture& picture, render::Footprint footprint,
                         std::span<const render::View> views);
     /// Draws something small in each of these ways, so that drivers compile their shaders.
     void warm_up(const Picture& picture, std::span<const render::View> views, bool linear_light);

@@ -5,6 +5,7 @@
 #include "app/scene/color_scale.h"
 #include "app/scene/guides.h"
 #include "index/extraction/extraction.h"
+#include "index/volume/volume_series.h"
 #include "interaction/commands.h"
 #include "interaction/pointed.h"
 #include "interaction/tools/tool.h"
@@ -42,6 +43,13 @@ inline bool only_panel_differs(const PictureLayout& a, const PictureLayout& b) {
     return a != b && a.windows == b.windows && a.aside == b.aside;
 }
 
+/// Array whose surfaces are shown, as words about its values need it.
+struct ShownValues {
+    std::string array, unit;
+    index::ValueType type{};
+    bool operator==(const ShownValues&) const = default;
+};
+
 /// Everything that the eyes' pictures depend on.
 struct Picture {
     Audience audience;
@@ -56,7 +64,7 @@ struct Picture {
     std::size_t resolution = 0; ///< number of the cells' resolution: see `kCellResolutions`
     index::ExtractionPtr cells;
     std::vector<interaction::Isosurface> isosurfaces;
-    std::string value_unit; ///< unit of their isovalues
+    ShownValues values; ///< whose surfaces they are
     interaction::Look look;
     bool transparent = false;        ///< nothing is drawn behind the data, whatever `look` says
     std::optional<ColorScale> scale; ///< empty: colors tell surfaces apart

@@ -163,9 +163,15 @@ render::Placement Scene::placement_of(const Picture& picture) const {
     return render::Placement::of(info_.grid, matrix(picture.room_from_physical));
 }
 
+void Scene::speak_of(const ShownValues& values) {
+    info_.array = values.array;
+    info_.value_unit = values.unit;
+    info_.type = values.type;
+}
+
 std::size_t Scene::draw(const Picture& picture, std::span<const render::View> views,
                         const ScenePart& part) {
-    info_.value_unit = picture.value_unit;
+    speak_of(picture.values);
     const render::Placement placement = placement_of(picture);
     const render::Footprint footprint = cells_.footprint_for(picture);
     const bool is_whole = part.begins && part.ends && part.cells == render::DrawPart{};
@@ -179,7 +185,8 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     render::CellAppearance appearance = appearance_of(picture);
     const bool moved =
         picture.moved && is_whole && !again && moving_.draw_moved(kept_, picture, views);
-    const bool depth = moved || writes_depth(footprint, appearance);
+    const bool layers = is_whole && moves_in_layers(picture, footprint);
+    const bool depth = moved || (writes_depth(footprint, appearance) && !layers);
     if (!depth && part.begins)
         draw_among_cells(views, picture, placement);
     if (!moved && render::CellPass::needs_corners(cells_.drawn(), footprint, appearance))
@@ -191,8 +198,8 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     const bool anew = !again && !moved;
     if (anew && is_whole && picture.resolution > 0 && footprint == render::Footprint::quad)
         moving_.draw_in_few_pixels(cells, picture, views);
-    else if (anew && is_whole && moves_in_layers(picture, footprint))
-        moving_.draw_in_layers(cells, picture, views);
+    else if (anew && layers)
+        moving_.draw_in_layers(cells, picture, footprint, views);
     else if (anew)
         done = cell_pass_.draw(views, placement, cells_.drawn(), footprint, appearance, part.cells);
     if (!part.ends)
@@ -319,6 +326,36 @@ void Scene::draw_among_cells(std::span<const render::View> views, const Picture&
     }
 }
 
+/// What legend, scale bar with axes, and caption cover.
+std::vector<Covered> Scene::words_in_corners(std::span<const render::View> views,
+                                             const Picture& picture) const {
+    const OverlayColors overlay = overlay_of(picture);
+    const float share = picture.layout.text;
+    std::array<Covered, 3> corners;
+    for (const render::View& view : views) {
+        std::array<std::vector<render::ScreenQuad>, 3> quads;
+        if (picture.legend)
+            quads[0] = legend_quads({picture.isosurfaces, info_.value_unit, picture.scale, overlay},
+                                    text_pass_, view.size, share);
+        if (picture.orientation)
+            quads[1] =
+                orientation_in(view, picture.room_from_physical, info_, text_pass_, overlay, share)
+                    .quads;
+        if (!picture.caption.empty())
+            quads[2] = caption_quads(picture.caption, text_pass_, view.size, overlay, share);
+        for (std::size_t i = 0; i < quads.size(); ++i) {
+            std::optional<TextRectangle>& covered = corners[i].emplace_back();
+            for (const render::ScreenQuad& quad : quads[i]) {
+                const glm::vec2 at(quad.at);
+                const TextRectangle before = covered.value_or(TextRectangle{at + quad.low, at});
+                covered = {glm::min(before.low, at + quad.low),
+                           glm::max(before.high, at + quad.high)};
+            }
+        }
+    }
+    return {corners.begin(), corners.end()};
+}
+
 /// The edges of the box that no cell hides. The numbers are on its outline, where no cell is in front
 /// of them or behind.
 void Scene::draw_before_cells(std::span<const render::View> views, const Picture& picture,
@@ -327,8 +364,9 @@ void Scene::draw_before_cells(std::span<const render::View> views, const Picture
         return;
     Axes axes = axes_for(info_, placement, picture.audience.viewers.front().head, views);
     set_colors(axes, overlay_of(picture));
-    const std::vector<render::Label> labels = labels_with_room(
-        axes.labels, text_pass_.atlas(), placement.room_from_index, views, picture.layout.text);
+    const std::vector<render::Label> labels =
+        labels_with_room(axes.labels, text_pass_.atlas(), placement.room_from_index, views,
+                         picture.layout.text, words_in_corners(views, picture));
     for (const render::View& view : views) {
         render::BoxLines box = box_in(view, picture, placement);
         std::vector<render::Line> lines = std::move(box.outline);
@@ -423,7 +461,7 @@ void Scene::draw_orientation(const render::View& view, const Picture& picture) {
 }
 
 void Scene::draw_aids(const Picture& picture, const Aids& aids, const render::View& view) {
-    info_.value_unit = picture.value_unit;
+    speak_of(picture.values);
     gl_.Enable(GL_SCISSOR_TEST);
     render::set_viewport(gl_, view);
     gl_.DepthMask(GL_TRUE);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "app/config/config.h"
+#include "app/scene/axis_labels.h"
 #include "app/scene/callouts.h"
 #include "app/scene/cell_sets.h"
 #include "app/scene/cell_warm_up.h"
@@ -95,6 +96,8 @@ class Scene {
     void draw_aids(const Picture& picture, const Aids& aids, const render::View& view);
 
   private:
+    /// Words tell of this array from now on.
+    void speak_of(const ShownValues& values);
     render::CellAppearance appearance_of(const Picture& picture);
     render::Placement placement_of(const Picture& picture) const;
     void draw_among_cells(std::span<const render::View> views, const Picture& picture,
@@ -107,6 +110,8 @@ class Scene {
         std::span<const CalloutPaper> papers;
         bool whole_pixels; ///< one eye sees them
     };
+    std::vector<Covered> words_in_corners(std::span<const render::View> views,
+                                          const Picture& picture) const;
     void draw_over_cells(const render::View& view, const Picture& picture, const Words& words);
     void draw_panel(const render::View& view, const Picture& picture);
     void draw_ray(const render::View& view, const Picture& picture, const Aids& aids);

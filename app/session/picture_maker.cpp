@@ -122,6 +122,11 @@ bool PictureMaker::aids_lie_over(const ExplorerState& state) const {
            outputs_.displays() == 1 && one_picture_each;
 }
 
+ShownValues PictureMaker::shown_values(const ExplorerState& state) const {
+    const index::SeriesInfo& info = arrays_.shown(state).info();
+    return {info.array, info.value_unit, info.type};
+}
+
 Picture PictureMaker::make(const Frame& frame, const interaction::InputState& seen) {
     const ExplorerState& state = frame.state;
     const Aids all = aids(seen, state), none;
@@ -148,7 +153,7 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
         .resolution = frame.drawn ? frame.drawn->resolution : 0,
         .cells = sets_.shown(),
         .isosurfaces = state.isosurfaces,
-        .value_unit = arrays_.shown(state).info().value_unit,
+        .values = shown_values(state),
         .look = state.look,
         .scale = shown_scale(state),
         .bounding_box = state.bounding_box,
@@ -176,6 +181,7 @@ Picture PictureMaker::first(const ExplorerState& state) const {
     picture.mark = state.mark;
     picture.room_from_physical = state.room_from_physical;
     picture.isosurfaces = state.isosurfaces;
+    picture.values = shown_values(state);
     picture.look = state.look;
     picture.bounding_box = state.bounding_box;
     return picture;

@@ -53,6 +53,7 @@ class PictureMaker {
 
   private:
     std::optional<ColorScale> shown_scale(const ExplorerState& state) const;
+    ShownValues shown_values(const ExplorerState& state) const;
     bool colored_as_asked(const ExplorerState& state) const;
     bool in_windows(const FrameReport& report);
     bool on_screens_of_desk() const;

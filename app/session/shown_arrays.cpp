@@ -37,12 +37,11 @@ ShownArrays::ShownArrays(const Config& config, std::shared_ptr<const index::Inde
     for (std::size_t number = 0; number < file_->arrays(); ++number) {
         const index::IndexFile& array = file_->array(number);
         names_.push_back(array.info().array);
-        notes_.push_back(fmt::format("{:.4g} to {}", array.stats().low,
-                                     with_unit(array.stats().high, array.info().value_unit)));
+        notes_.push_back(range_text(array.stats().low, array.stats().high, array.info().value_unit));
         lines_.push_back({array.info().array,
                           grid_words(array.info()),
                           array.info().value_unit,
-                          fmt::format("{:.4g} to {:.4g}", array.stats().low, array.stats().high),
+                          range_text(array.stats().low, array.stats().high),
                           {}});
         if (number > 0)
             first_surfaces_.push_back(

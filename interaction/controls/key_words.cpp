@@ -31,11 +31,11 @@ std::string every(const Settings& now) {
 std::string range(const Settings& now) {
     const StepRange& played = now.play_range;
     if (played == StepRange{})
-        return "all steps play";
+        return "plays all steps";
     const auto end = [](const std::optional<std::uint32_t>& step, const char* open) {
         return step ? fmt::format("{}", *step + 1) : std::string(open);
     };
-    return fmt::format("steps {} to {} play", end(played.first, "1"), end(played.last, "the last"));
+    return fmt::format("plays steps {} to {}", end(played.first, "1"), end(played.last, "the last"));
 }
 
 std::string quality(const Settings& now) {

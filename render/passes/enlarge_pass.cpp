@@ -2,6 +2,7 @@
 #include "render/passes/enlarge_pass.h"
 
 #include "render/gl/gl_memory.h"
+#include "render/gl/soft_edges.h"
 #include "render/gl/viewport.h"
 #include "render/passes/pixel_box.h"
 
@@ -68,19 +69,26 @@ void EnlargePass::begin(std::span<const View> views, float share, bool linear) {
         set_viewport(*gl_, few_[i], static_cast<GLuint>(i));
 }
 
-void EnlargePass::end(std::span<const View> views, const glm::mat4& room_from_box) const {
+void EnlargePass::end(std::span<const View> views, const glm::mat4& room_from_box,
+                      bool layers) const {
     assert(target_ && views.size() == few_.size());
     gl_->BindFramebuffer(GL_FRAMEBUFFER, bound_);
     if (!target_->linear) // display values, which the target must not convert
         gl_->Disable(GL_FRAMEBUFFER_SRGB);
-    gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
     gl_->DepthMask(GL_TRUE);
-    gl_->Disable(GL_BLEND);
+    if (layers) {
+        gl_->Disable(GL_DEPTH_TEST);
+        blend_over(*gl_);
+    } else {
+        gl_->Enable(GL_DEPTH_TEST);
+        gl_->Disable(GL_BLEND);
+    }
     gl_->BindTextureUnit(0, target_->color.name());
     gl_->BindTextureUnit(1, target_->depth.name());
     const GLuint program = program_.name();
     gl_->UseProgram(program);
+    gl_->ProgramUniform1i(program, 1, layers ? 1 : 0);
     gl_->BindVertexArray(no_attributes_.name());
     const glm::vec2 whole(target_->size);
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -97,6 +105,8 @@ void EnlargePass::end(std::span<const View> views, const glm::mat4& room_from_bo
     gl_->BindVertexArray(0);
     gl_->UseProgram(0);
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
+    gl_->Enable(GL_DEPTH_TEST);
+    gl_->Disable(GL_BLEND);
     for (std::size_t i = 0; i < views.size(); ++i)
         set_viewport(*gl_, views[i], static_cast<GLuint>(i));
 }

@@ -31,7 +31,8 @@ class EnlargePass {
     /// been drawn since `begin`, within a box. Leaves depth test, depth writes and GL_FRAMEBUFFER_SRGB on,
     /// blending off, and the viewports set.
     /// @param room_from_box the box is that of 0 to 1 along each axis
-    void end(std::span<const View> views, const glm::mat4& room_from_box) const;
+    /// @param layers what has been drawn lets light through: it is blended over the views, without depth
+    void end(std::span<const View> views, const glm::mat4& room_from_box, bool layers) const;
 
   private:
     struct Target {

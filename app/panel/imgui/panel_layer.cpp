@@ -126,7 +126,7 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
     while (!waiting_.empty() && !waits(waiting_.front())) {
         const WindowEvent event = waiting_.front();
         waiting_.pop_front();
-        if (pages_.turn(event, has_popup()))
+        if (pages_.turn(event, has_popup()) || (shown && leaves_part(event)))
             continue;
         const bool open = shown || pages_.any() || pages_.takes_text();
         const bool taken = std::visit(taker, event);
@@ -137,6 +137,13 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
     if (taker.begun)
         pages_.begin();
     return left;
+}
+
+/// Escape leaves what is open beside the pages, before it reaches the tools.
+bool PanelLayer::leaves_part(const WindowEvent& event) {
+    const auto* key = std::get_if<KeyEvent>(&event);
+    return key && key->down && key->alone() && key->key == interaction::Key::escape &&
+           !has_popup() && !pages_.leaving() && !ImGui::GetIO().WantTextInput && view_.close_part();
 }
 
 /// A press of the right button on the picture that moves nothing opens the menu of the place.

@@ -110,6 +110,7 @@ class PanelLayer {
     void end_frame();
     std::size_t hash_of_layout() const;
     bool has_popup() const;
+    bool leaves_part(const interaction::WindowEvent& event);
     void follow_right_button(const interaction::WindowEvent& event, bool taken);
     void lay_out_menu(const PanelModel& model, interaction::Commands& commands);
     interaction::Commands say(const PanelModel& model, interaction::Seconds time);

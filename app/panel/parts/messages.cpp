@@ -85,12 +85,19 @@ glm::vec2 state_chip(const PanelModel& model, const PanelBox& picture, bool& ope
     return {corner.x + width, corner.y + height};
 }
 
-glm::vec2 statistics_window(const PanelModel& model, const PanelBox& picture, float top,
-                            PanelPages& pages) {
+float statistics_end(const PanelBox& picture) {
     constexpr float kWidth = 380.0f;
+    return picture.low.x + std::min(kWidth + kMargin, picture.size().x - kMargin);
+}
+
+glm::vec2 statistics_window(const PanelModel& model, const PanelBox& picture, float top,
+                            float highest, PanelPages& pages) {
     ImGui::SetNextWindowPos({picture.low.x + kMargin, top});
-    ImGui::SetNextWindowSize({std::min(kWidth, picture.size().x - 2 * kMargin), 0.0f});
-    ImGui::Begin("###statistics", nullptr, kFixed & ~ImGuiWindowFlags_AlwaysAutoResize);
+    const float width = statistics_end(picture) - picture.low.x - kMargin;
+    ImGui::SetNextWindowSize({width, 0.0f});
+    ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, highest});
+    ImGui::Begin("###statistics", nullptr,
+                 kFixed & ~(ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoScrollbar));
     note(quality_line(model.frame), color_of(Ink::text));
     measurements(model);
     if (!model.notes.past.empty() && ImGui::Button("messages ..."))
@@ -199,9 +206,9 @@ bool empty_card(const PanelModel& model, const PanelBox& picture) {
         return false;
     const EmptyPicture& empty = *model.notes.empty;
     const float widest = std::min(kWidest, 0.9f * picture.size().x - 2 * kMargin);
-    ImGui::SetNextWindowPos({(picture.low.x + picture.high.x) / 2,
-                             picture.low.y + kHeight * picture.size().y},
-                            ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowPos(
+        {(picture.low.x + picture.high.x) / 2, picture.low.y + kHeight * picture.size().y},
+        ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::Begin("###empty", nullptr, kFixed | ImGuiWindowFlags_NoNav);
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + widest);
     ImGui::TextUnformatted(empty.sentence.c_str());

@@ -25,9 +25,12 @@ std::string quality_line(const FrameReport& frame);
 /// @return the right lower corner of the chip
 glm::vec2 state_chip(const PanelModel& model, const PanelBox& picture, bool& open);
 /// The figures behind these words, at the left of the picture. @param top where they begin
+/// @param highest more lines are reached by scrolling
 /// @return their right lower corner
 glm::vec2 statistics_window(const PanelModel& model, const PanelBox& picture, float top,
-                            PanelPages& pages);
+                            float highest, PanelPages& pages);
+/// Where they end at the right.
+float statistics_end(const PanelBox& picture);
 
 /// At the lower edge of the picture, between its scale bar and its legend: between which steps the
 /// moment lies, or that a gap is held.

@@ -57,10 +57,9 @@ void array_row(const PanelModel& model, PanelPages& pages, Commands& commands) {
 void data_section(const PanelModel& model, PanelPages& pages, Commands& commands) {
     const index::SeriesInfo& info = model.info;
     array_row(model, pages, commands);
-    text_row("values", fmt::format("{:.4g} to {}", model.stats.low,
-                                   with_unit(model.stats.high, info.value_unit)));
+    text_row("values", range_text(model.stats.low, model.stats.high, info.value_unit));
     const glm::dvec3 size = physical_size(info.grid);
-    text_row("size", fmt::format("{:.3g} x {:.3g} x {:.3g}{}", size.x, size.y, size.z,
+    text_row("size", fmt::format("{:.5g} x {:.5g} x {:.5g}{}", size.x, size.y, size.z,
                                  with_space(info.length_unit)));
     text_row("grid", grid_words(info));
     if (model.sessions.empty())

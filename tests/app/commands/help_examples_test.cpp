@@ -192,8 +192,6 @@ std::vector<std::string> commands_in(const std::filesystem::path& page) {
     for (std::string line; std::getline(lines, line);) {
         if (line.starts_with("```"))
             block = line == "```sh";
-        if (line.starts_with("$isochron "))
-            line.erase(0, 1);
         const auto has = [&](const char* word) { return line.find(word) != std::string::npos; };
         if (block && line.starts_with("isochron ") && !has("--live") &&
             (!has(" serve ") || has("--write-site")) && // else it goes on until it is ended

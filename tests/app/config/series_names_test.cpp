@@ -31,6 +31,15 @@ TEST(SeriesNames, APatternMatchesItsFilesOnly) {
     EXPECT_TRUE(series_among(Names{"only1.vti", "other.vti"}).empty());
 }
 
+TEST(SeriesNames, AreSaidAsPeopleReadThem) {
+    for (const auto& [data, said] :
+         {std::pair("/d/case_[0-9]*.vti", "case_*.vti"), std::pair("t[[]x][0-9]*.vti", "t[x]*.vti"),
+          std::pair("/d/run_[0-9]*/p.nii", "p.nii"), std::pair("a[*]b[?].raw", "a*b?.raw"),
+          std::pair("flow.isochron", "flow.isochron"), std::pair("t*.vti", "t*.vti"),
+          std::pair("[[", "[[")})
+        EXPECT_EQ(said_name(data), said);
+}
+
 TEST(SeriesNames, FilesOfAFolderHaveOneNameIfTheyAreAllThatMatch) {
     const test_support::TestFolder folder;
     fs::create_directory(folder.path() / "b[0]");

@@ -46,9 +46,12 @@ class LayerTest : public testing::Test {
                                .pointed = pointed_},
                               time_);
     }
+    /// @param at panel pixels
     void point(glm::vec2 at) {
-        frame({interaction::MouseMoveEvent{at.x / float(kSize.x), at.y / float(kSize.y), kSize.x,
-                                           kSize.y}});
+        const ImVec2 laid_out = ImGui::GetIO().DisplaySize; // in the last frame
+        const glm::vec2 screen =
+            laid_out.x > 0 ? glm::vec2(laid_out.x, laid_out.y) : glm::vec2(size_);
+        frame({interaction::MouseMoveEvent{at.x / screen.x, at.y / screen.y, size_.x, size_.y}});
     }
     /// A click at a place, in pixels from the top left. @return the commands that it led to
     interaction::Commands click(glm::vec2 at) {

@@ -5,6 +5,7 @@
 #include "app/panel/parts/surfaces_section.h"
 #include "app/panel/parts/theme.h"
 #include "app/panel/parts/written_pictures.h"
+#include "app/text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -94,6 +95,22 @@ TEST_F(PanelTest, TakesValuesUpToTheGreatestOfADouble) {
         EXPECT_TRUE(!commands.isovalue ||
                     (low <= *commands.isovalue && *commands.isovalue <= high));
     }
+}
+
+TEST(RangeText, HasAsManyDigitsAsTellItsEndsApart) {
+    struct Row {
+        double low, high;
+        const char* words;
+    };
+    for (const Row& row :
+         {Row{293.1499938964844, 353.141, "293.15 to 353.141 K"},
+          Row{99960, 102725, "99960 to 102725 K"}, Row{102725, 99960, "102725 to 99960 K"},
+          Row{101325.011, 101325.0148, "101325.011 to 101325.0148 K"},
+          Row{0, 0.0034, "0 to 0.0034 K"}, Row{-5, 5, "-5 to 5 K"}, Row{7, 7, "7 to 7 K"},
+          Row{1e-12, 2.5e12, "1e-12 to 2.5e+12 K"}, Row{-1e300, 1e300, "-1e+300 to 1e+300 K"}})
+        EXPECT_EQ(range_text(row.low, row.high, "K"), row.words);
+    const double largest = std::numeric_limits<double>::max();
+    EXPECT_EQ(range_text(-largest, largest), "-1.79769e+308 to 1.79769e+308");
 }
 
 TEST_F(PanelTest, MeasurementsAreSaidInWords) {

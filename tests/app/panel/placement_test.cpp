@@ -80,7 +80,7 @@ class Placement : public LayerTest, public testing::WithParamInterface<Screen> {
     }
 };
 
-TEST_P(Placement, NothingOverlapsInSixtyStates) {
+TEST_P(Placement, NothingOverlapsInSeventyTwoStates) {
     struct State {
         const char* name;
         std::function<void()> begin;
@@ -113,9 +113,14 @@ TEST_P(Placement, NothingOverlapsInSixtyStates) {
               notes_.standing = "indexing: step 12 of 64, 3 minutes left";
               notes_.failure = "/data/flow.isochron: block 17 cannot be read: Input/output error";
           }}}};
-    const std::array<State, 5> cards{
+    const auto section = [this] { // where it opens over the picture
+        if (layer_.layout().folded)
+            click(layer_.layout().column.low + glm::vec2(20, 20));
+    };
+    const std::array<State, 6> cards{
         {{"no card", nothing},
          {"statistics", [this] { click(layer_.layout().picture.low + glm::vec2(30, 22)); }},
+         {"section", section},
          {"hint", [this] { layer_.pages().introduce(); }},
          {"room", [this] { layer_.pages().explain_room(); }},
          {"sessions", [this] {
@@ -135,8 +140,9 @@ TEST_P(Placement, NothingOverlapsInSixtyStates) {
                 card.begin();
                 words.begin();
                 expect_apart(fmt::format("{}, {}, {}", tool.name, words.name, card.name));
-                if (std::string_view(card.name) == "statistics")
-                    card.begin(); // closes them
+                if (const std::string_view name = card.name;
+                    name == "statistics" || name == "section")
+                    card.begin(); // closes it
                 layer_.pages() = OpenPages();
                 ++states;
             }

@@ -3,6 +3,7 @@
 #include "tests/app/panel/layer_fixture.h"
 
 #include <gmock/gmock.h>
+#include <imgui_internal.h>
 
 #include <string>
 
@@ -105,6 +106,70 @@ TEST_F(TourTest, ASessionIsFoundByTheSearch) {
     frame({interaction::KeyEvent{interaction::Key::enter, true}});
     frame({interaction::KeyEvent{interaction::Key::enter, false}});
     EXPECT_EQ(layer_.pages().take_continued().value_or(OfferedSession{}).name, "flow paper");
+}
+
+TEST_F(TourTest, ACardWaitsWhileAPageOpensAndCloses) {
+    using interaction::Key;
+    constexpr auto kControl = static_cast<std::uint8_t>(interaction::Modifier::control);
+    struct Card {
+        const char* button;
+        void (OpenPages::*open)();
+    };
+    struct Page {
+        const char* name;
+        Key key;
+        std::uint8_t modifiers;
+    };
+    for (const Card& card :
+         {Card{"Name it", &OpenPages::ask_session_name}, Card{"No, thanks", &OpenPages::introduce},
+          Card{"I see (Enter)", &OpenPages::explain_room}})
+        for (const Page& page : {Page{"###help", Key::f1, 0}, Page{"###search", Key{'K'}, kControl},
+                                 Page{"###messages", {}, 0}}) {
+            SCOPED_TRACE(testing::Message() << page.name << " over " << card.button);
+            layer_.pages() = OpenPages();
+            (layer_.pages().*card.open)();
+            EXPECT_TRUE(shows(card.button));
+            if (page.key == Key{})
+                layer_.pages().open_messages();
+            else
+                press(page.key, page.modifiers);
+            frame();
+            EXPECT_TRUE(layer_.pages().any());
+            EXPECT_FALSE(shows(card.button));
+            press(Key::escape);
+            EXPECT_FALSE(layer_.pages().any());
+            EXPECT_TRUE(shows(card.button)) << "no answer to the card";
+            EXPECT_EQ(layer_.pages().take_session_name(), std::nullopt);
+        }
+}
+
+TEST_F(TourTest, EscapeLeavesWhatIsOpenOverThePictureBeforeItReachesTheSession) {
+    const auto reaches = [&] {
+        frame({interaction::KeyEvent{interaction::Key::escape, true}});
+        const bool left = !left_.empty();
+        frame({interaction::KeyEvent{interaction::Key::escape, false}});
+        settle();
+        return left;
+    };
+    const auto is_open = [](const char* window) {
+        const ImGuiWindow* const found = ImGui::FindWindowByName(window);
+        return found && found->Active && !found->Hidden;
+    };
+    for (const auto& [size, window] : {std::pair(glm::ivec2(1280, 800), "###statistics"),
+                                       std::pair(glm::ivec2(640, 480), "###section")}) {
+        SCOPED_TRACE(window);
+        size_ = size;
+        settle();
+        EXPECT_TRUE(reaches()) << "nothing is open";
+        const PanelLayout layout = layer_.layout();
+        click(layout.folded ? layout.column.low + glm::vec2(20, 20)
+                            : layout.picture.low + glm::vec2(30, 22));
+        settle();
+        ASSERT_TRUE(is_open(window));
+        EXPECT_FALSE(reaches());
+        EXPECT_FALSE(is_open(window));
+        EXPECT_TRUE(reaches()) << "the next one is the tool's";
+    }
 }
 
 TEST_F(TourTest, AskedForItsNameASessionGetsWhatIsTyped) {

@@ -60,9 +60,10 @@ struct Looking {
 
 class AxisLabelsTest : public testing::Test {
   protected:
-    std::vector<render::Label> shown(const Looking& from) {
+    std::vector<render::Label> shown(const Looking& from, const std::vector<Covered>& taken = {}) {
         axes_ = axes_for(info_, placement_, from.head, from.views);
-        return labels_with_room(axes_.labels, atlas_, placement_.room_from_index, from.views);
+        return labels_with_room(axes_.labels, atlas_, placement_.room_from_index, from.views, 0.0f,
+                                taken);
     }
     /// Whether the two texts cover a common pixel in a view, worked out anew.
     bool overlap(const render::Label& a, const render::Label& b, const render::View& view) const {
@@ -115,6 +116,46 @@ TEST_F(AxisLabelsTest, NeverCoverEachOtherInEitherEye) {
     }
     EXPECT_GT(without_care, 100u) << "there is something to see to";
     EXPECT_GT(kept, all * 4 / 5) << "most labels have room, of " << all;
+}
+
+TEST_F(AxisLabelsTest, NeverCoverWordsInACorner) {
+    const glm::vec2 picture(kPicture), words(0.2f * picture.x, 0.5f * picture.y);
+    std::mt19937 random(test_seed());
+    std::uniform_real_distribution<float> share(-1.0f, 1.0f);
+    std::size_t hidden = 0, titles = 0, titles_without = 0;
+    constexpr int kRounds = 100;
+    for (int i = 0; i < kRounds; ++i) {
+        const glm::vec3 direction(share(random), share(random), share(random));
+        const Looking from(kMiddle + (2.5f + 0.5f * share(random)) * glm::normalize(direction));
+        for (const glm::vec2 corner :
+             {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(1, 1)}) {
+            const glm::vec2 low = corner * (picture - words);
+            const auto over = [&](const std::vector<render::Label>& labels) {
+                std::size_t count = 0;
+                for (const render::Label& label : labels)
+                    for (const render::View& view : from.views) {
+                        const auto box = covered_by(label, text_height(view.size), atlas_,
+                                                    view.clip_from_eye * view.eye_from_room *
+                                                        placement_.room_from_index,
+                                                    view.size);
+                        count += box && box->low.x < low.x + words.x && box->high.x > low.x &&
+                                 box->low.y < low.y + words.y && box->high.y > low.y;
+                    }
+                return count;
+            };
+            const auto without = shown(from);
+            hidden += over(without);
+            const auto labels = shown(from, {Covered(2, TextRectangle{low, low + words})});
+            ASSERT_EQ(over(labels), 0u) << "round " << i;
+            for (const AxisLabels& axis : axes_.labels) {
+                titles += std::ranges::count(labels, axis.title.text, &render::Label::text);
+                titles_without +=
+                    std::ranges::count(without, axis.title.text, &render::Label::text);
+            }
+        }
+    }
+    EXPECT_GT(hidden, 100u) << "there is something to see to";
+    EXPECT_GT(titles, titles_without * 17 / 20) << "most titles have room, of " << titles_without;
 }
 
 TEST_F(AxisLabelsTest, HaveTheirTitlesAndAllThatDoNotMeet) {

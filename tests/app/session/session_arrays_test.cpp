@@ -92,6 +92,33 @@ TEST_P(SessionArrays, APictureIsThatOfAnIndexWithThatArrayAlone) {
     EXPECT_TRUE(same(picture(alone, colored, 2), colors_here));
 }
 
+TEST_P(SessionArrays, WordsInAPictureAreOfTheArrayThatIsShown) {
+    Commands mark, legend;
+    mark.mark.emplace();
+    mark.mark->point.emplace();
+    mark.mark->point->position = {12, 15, 15};
+    mark.mark->point->value = 12.25;
+    legend.isosurfaces = {{.isovalue = 60}, {.isovalue = 80}};
+    for (const auto& [words, commands] : {std::pair("mark", mark), std::pair("legend", legend)}) {
+        SCOPED_TRACE(words);
+        Session alone(without_titles(), near_, *context_), both(without_titles(), both_, *context_);
+        EXPECT_EQ(near_->info().array, "nearness");
+        picture(both, {}, 0);
+        picture(both, both.way_to_array(1), 1);
+        // At rest, so that how long a picture has stood makes no difference.
+        const auto at_rest = [](Session& session, const Commands& change, double time) {
+            picture(session, change, time);
+            for (int frame = 1; frame < 20; ++frame)
+                picture(session, {}, time + 0.1 * frame);
+            return picture(session, {}, time + 2);
+        };
+        const render::Image before = at_rest(alone, {}, 2), expected = at_rest(alone, commands, 5);
+        EXPECT_FALSE(same(before, expected));
+        EXPECT_TRUE(same(at_rest(both, {}, 2), before));
+        EXPECT_TRUE(same(at_rest(both, commands, 5), expected));
+    }
+}
+
 TEST_P(SessionArrays, AResumedSessionKnowsHowEachWasLeft) {
     Session session(small_config(), both_, *context_);
     Commands moved;

@@ -105,9 +105,9 @@ bool holds(const Field& field, const interaction::Mark& mark) {
 
 /// A record that no rule above is for: each of its fields holds.
 template <class T>
-requires requires(const T& record) {
-    interaction::each_field([](const Field&, const auto&) {}, record);
-}
+    requires requires(const T& record) {
+        interaction::each_field([](const Field&, const auto&) {}, record);
+    }
 bool holds(const Field&, const T& record) {
     bool all = true;
     const auto check = [&](const Field& field, const auto& member) {

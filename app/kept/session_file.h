@@ -30,9 +30,9 @@ struct SavedSession {
     /// the first look at the data.
     bool only_looked = false;
     std::uint32_t reading = 0; ///< `index::Metadata::reading_number` of the data; 0: not said
-    std::string name{};    ///< given by the user; empty: none
-    std::string opened{};  ///< path of the data as the user opened them; empty: unknown
-    std::string picture{}; ///< bytes of a small PNG of what was seen last; empty: none
+    std::string name{};        ///< given by the user; empty: none
+    std::string opened{};      ///< path of the data as the user opened them; empty: unknown
+    std::string picture{};     ///< bytes of a small PNG of what was seen last; empty: none
 };
 
 /// Whether a session is kept for ever: it has a name, or somebody has put marks into it (the mark, the

@@ -64,8 +64,7 @@ void SessionKeeper::after_frame(Session& session, const LiveFrame& frame) {
         set_name(*name);
     // Whoever saves from elsewhere cannot answer in the window.
     const bool asks = frame.commands.save && !frame.from_panel.save && name_.empty() &&
-                      SessionPanel::is_flat(session.state()) &&
-                      session.panel().ask_session_name();
+                      SessionPanel::is_flat(session.state()) && session.panel().ask_session_name();
     if (frame.commands.save || name)
         save_now(session.state(), head_, session.left_arrays(), !asks);
     else if (is_due(frame.input.time))

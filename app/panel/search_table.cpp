@@ -267,8 +267,9 @@ constexpr OtherNames kOtherNames[] = {
     {"movie", "save animation, export movie, export animation, make a movie, video, mp4, avi, gif, "
               "render animation, animation, film, keyframe, camera path, turntable movie"},
     {"movie_of_recording", "movie of camera path, keyframe, video of session, screen capture"},
-    {"movie_of_keys", "keyframes, key frames, camera path, animation, render animation, flythrough, "
-                      "film, video of keys"},
+    {"movie_of_keys",
+     "keyframes, key frames, camera path, animation, render animation, flythrough, "
+     "film, video of keys"},
     {"add_key", "keyframe, key frame, set key, insert keyframe, camera path, waypoint, animation, "
                 "film, storyboard"},
     {"remove_key", "delete keyframe, delete key frame, clear key"},
@@ -485,8 +486,7 @@ void add_surfaces(Lines& lines) {
                    .words = "remove the surface",
                    .commands = without_surface(model, model.asked.picked)});
     lines.control("histogram", "histogram of the values",
-                  range_text(model.stats.low, model.stats.high, unit),
-                  kSurfaces);
+                  range_text(model.stats.low, model.stats.high, unit), kSurfaces);
 }
 
 void add_coloring(Lines& lines) {
@@ -526,7 +526,7 @@ void add_coloring(Lines& lines) {
         });
     const std::array<double, 2>& range = model.colors.range;
     lines.control("color_range", "range of the colors",
-                  now.range ? range_text((*now.range)[0], (*now.range)[1])
+                  now.range         ? range_text((*now.range)[0], (*now.range)[1])
                   : now.percentiles ? "percentiles"
                                     : "of all values",
                   kColor);

@@ -39,7 +39,7 @@ std::optional<TextRectangle> covered_by(const render::Label& label, float height
 std::vector<render::Label> labels_with_room(std::span<const AxisLabels> axes,
                                             const render::GlyphAtlas& atlas,
                                             const glm::mat4& room_from_model,
-                                            std::span<const render::View> views,
-                                            float share = 0.0f, std::vector<Covered> taken = {});
+                                            std::span<const render::View> views, float share = 0.0f,
+                                            std::vector<Covered> taken = {});
 
 } // namespace isochron::app

@@ -103,8 +103,7 @@ void write_surfaces(const Legend& legend, Layout& layout) {
     for (const interaction::Isosurface& surface : legend.surfaces) {
         if (!legend.scale)
             layout.fill_rimmed({0.0f, y - 0.4f}, {kBarWidth, 0.8f}, glm::vec4(surface.color, 1.0f));
-        layout.write(with_unit(surface.isovalue, legend.value_unit),
-                     {kBarWidth + 0.7f, y});
+        layout.write(with_unit(surface.isovalue, legend.value_unit), {kBarWidth + 0.7f, y});
         y += 1.3f;
     }
 }

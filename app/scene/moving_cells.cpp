@@ -116,8 +116,7 @@ void MovingCells::warm_up(const Picture& picture, std::span<const render::View> 
     enlarge_.begin(views, kCellResolutions.back(), linear_light);
     enlarge_.end(views, box, false);
     const std::array opacities{0.5f, 0.5f};
-    layers_.draw(
-        views, opacities, [](std::size_t) {}, false, linear_light, box);
+    layers_.draw(views, opacities, [](std::size_t) {}, false, linear_light, box);
     layers_.draw(
         views, std::span(opacities).first(1), [](std::size_t) {}, false, linear_light, box);
     render::RenderTarget small(gl_, {1, 1});

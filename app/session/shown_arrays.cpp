@@ -17,9 +17,8 @@
 namespace isochron::app {
 
 bool has_values(const index::IndexStats& stats) {
-    return has_surfaces(stats) || std::ranges::any_of(stats.histogram, [](std::uint64_t count) {
-               return count > 0;
-           });
+    return has_surfaces(stats) ||
+           std::ranges::any_of(stats.histogram, [](std::uint64_t count) { return count > 0; });
 }
 
 std::optional<std::size_t> next_with_surfaces(const index::IndexFile& file, std::size_t number) {
@@ -32,12 +31,13 @@ std::optional<std::size_t> next_with_surfaces(const index::IndexFile& file, std:
 
 ShownArrays::ShownArrays(const Config& config, std::shared_ptr<const index::IndexFile> file,
                          const ExplorerState& home)
-    : file_(std::move(file)),
-      color_names_(index::color_source_names(*file_)), first_surfaces_{home.isosurfaces} {
+    : file_(std::move(file)), color_names_(index::color_source_names(*file_)),
+      first_surfaces_{home.isosurfaces} {
     for (std::size_t number = 0; number < file_->arrays(); ++number) {
         const index::IndexFile& array = file_->array(number);
         names_.push_back(array.info().array);
-        notes_.push_back(range_text(array.stats().low, array.stats().high, array.info().value_unit));
+        notes_.push_back(
+            range_text(array.stats().low, array.stats().high, array.info().value_unit));
         lines_.push_back({array.info().array,
                           grid_words(array.info()),
                           array.info().value_unit,

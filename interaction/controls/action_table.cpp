@@ -270,9 +270,8 @@ std::vector<KeyLine> all_lines() {
             Look look = p.context.settings.look;
             look.lifts = !look.lifts;
             p.commands.look = look;
-            p.notes.emplace_back(look.lifts
-                                     ? "a dark background is lifted where colors show values"
-                                     : "the background stays as dark as it is chosen");
+            p.notes.emplace_back(look.lifts ? "a dark background is lifted where colors show values"
+                                            : "the background stays as dark as it is chosen");
         });
     line("] [", "eyes 1 mm further apart, closer together");
     add(eyes_apart, "eyes_apart", 27, {Key::right_bracket}, 0, "eyes 1 mm further apart");
@@ -358,7 +357,7 @@ const std::array<const ActionRow*, kActions>& rows() {
     return all;
 }
 
-std::optional<Action> action_with(auto ActionRow::*member, const auto& value) {
+std::optional<Action> action_with(auto ActionRow::* member, const auto& value) {
     const auto row =
         std::ranges::find(rows(), value, [&](const ActionRow* each) { return each->*member; });
     return row == rows().end() ? std::nullopt : std::optional((*row)->action);

@@ -35,7 +35,8 @@ std::string range(const Settings& now) {
     const auto end = [](const std::optional<std::uint32_t>& step, const char* open) {
         return step ? fmt::format("{}", *step + 1) : std::string(open);
     };
-    return fmt::format("plays steps {} to {}", end(played.first, "1"), end(played.last, "the last"));
+    return fmt::format("plays steps {} to {}", end(played.first, "1"),
+                       end(played.last, "the last"));
 }
 
 std::string quality(const Settings& now) {

@@ -23,9 +23,7 @@ using nlohmann::json;
 
 /// A structure of fields. A recording must have all of them, except optional ones.
 template <class T>
-concept Part = requires(T& part) {
-    each_field([](const Field&, auto&) {}, part);
-};
+concept Part = requires(T& part) { each_field([](const Field&, auto&) {}, part); };
 
 // Declared before parts, since parts hold lists of parts.
 template <class T>
@@ -38,7 +36,8 @@ void from_json(const json& value, const Field& field, Mark& into);
 // Numbers, words and texts.
 
 template <class T>
-requires std::integral<T> || std::floating_point<T> json to_json(T value) {
+    requires std::integral<T> || std::floating_point<T>
+json to_json(T value) {
     return value;
 }
 json to_json(const std::string& text) {

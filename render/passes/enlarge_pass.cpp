@@ -38,8 +38,7 @@ EnlargePass::Target::Target(const Gl& gl, glm::ivec2 pixels, bool linear_light)
 }
 
 EnlargePass::EnlargePass(const Gl& gl)
-    : gl_(&gl),
-      program_(gl, {shader_file("full_screen.vert"), shader_file("enlarge.frag")}),
+    : gl_(&gl), program_(gl, {shader_file("full_screen.vert"), shader_file("enlarge.frag")}),
       no_attributes_(gl) {}
 
 void EnlargePass::begin(std::span<const View> views, float share, bool linear) {

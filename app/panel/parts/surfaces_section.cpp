@@ -128,10 +128,10 @@ void line_on_isovalues(const PanelModel& model) {
     const double asked = model.asked.isovalue();
     const float width = ImGui::GetContentRegionAvail().x;
     if (asked < model.stats.low || asked > model.stats.high)
-        return fitted_text(fmt::format("no surface: the data are {}",
-                                       range_text(model.stats.low, model.stats.high,
-                                                  model.info.value_unit)),
-                           width, color_of(Ink::warning));
+        return fitted_text(
+            fmt::format("no surface: the data are {}",
+                        range_text(model.stats.low, model.stats.high, model.info.value_unit)),
+            width, color_of(Ink::warning));
     if (surfaces.size() < 2)
         return text(" ");
     const bool through =

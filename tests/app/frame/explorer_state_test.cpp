@@ -72,12 +72,10 @@ TEST(ExplorerState, RefusesTimesThatTheSeriesLacks) {
         EXPECT_TRUE(refused([&](Commands& commands) { commands.play_range = range; }));
     for (const StepRange& range : {StepRange{4, {}}, StepRange{2, 2}, StepRange{}})
         EXPECT_FALSE(refused([&](Commands& commands) { commands.play_range = range; }));
-    EXPECT_TRUE(refused([](Commands& commands) {
-        commands.bookmarks = {{"late", index::Instant(5)}};
-    }));
-    EXPECT_FALSE(refused([](Commands& commands) {
-        commands.bookmarks = {{"last", index::Instant(4)}};
-    }));
+    EXPECT_TRUE(
+        refused([](Commands& commands) { commands.bookmarks = {{"late", index::Instant(5)}}; }));
+    EXPECT_FALSE(
+        refused([](Commands& commands) { commands.bookmarks = {{"last", index::Instant(4)}}; }));
     using interaction::KeyFrame;
     const std::vector<std::pair<std::vector<KeyFrame>, bool>> kKeys{
         {{{.time = 0}, {.time = 1, .step = 4}}, false},
@@ -148,8 +146,8 @@ TEST(ExplorerState, IsKeptWithoutAnEmptyListOfKeysWhichEarlierVersionsDoNotKnow)
     const Commands kept = interaction::kept_state(state.as_commands());
     EXPECT_FALSE(interaction::commands_json(kept).contains("keys"));
     state.keys.emplace_back();
-    EXPECT_TRUE(interaction::commands_json(interaction::kept_state(state.as_commands()))
-                    .contains("keys"));
+    EXPECT_TRUE(
+        interaction::commands_json(interaction::kept_state(state.as_commands())).contains("keys"));
     EXPECT_TRUE(state.resume(kept, 1)); // a whole state without keys has none
     EXPECT_TRUE(state.keys.empty());
 }

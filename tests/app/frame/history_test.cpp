@@ -5,7 +5,6 @@
 
 #include "interaction/command_fields.h"
 #include "interaction/navigation/key_frames.h"
-#include "interaction/navigation/key_frames.h"
 #include "tests/interaction/recording/random_commands.h"
 #include "tests/support/test_seed.h"
 

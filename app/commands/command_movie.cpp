@@ -23,7 +23,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -191,8 +190,11 @@ std::string words_of_film(const MovieOptions& options, const interaction::Record
                           const glm::ivec2& size) {
     const double seconds =
         recording.frames.back().input.time.count() - recording.frames.front().input.time.count();
-    const double frames = std::floor(seconds * options.rate + 1.5);
-    return fmt::format("{}: {:.4g} s, {:.0f} frames at {:g} per second, {} x {} pixels",
+    Clock clock(recording, options.rate);
+    std::size_t frames = 0;
+    for (std::size_t i = 0; i < recording.frames.size(); ++i)
+        frames += clock.frames_of(i);
+    return fmt::format("{}: {:.4g} s, {} frames at {:g} per second, {} x {} pixels",
                        whole_path(options.out), seconds, frames, options.rate, size.x, size.y);
 }
 
@@ -322,11 +324,13 @@ void add_movie(Command& program) {
                 "Of an index, a film through key frames: a file of keys (docs/FORMATS.md), or a "
                 "session that has keys (Ctrl + M in `explore`)")
         .type_name("FILE");
-    command.flag("--turn", options->series.turn,
-                 "Of an index, one turn about the data's up axis while the steps pass; with "
-                 "`--steps 5`, while step 5 stands");
+    const Option turn =
+        command.flag("--turn", options->series.turn,
+                     "Of an index, one turn about the data's up axis while the steps pass; with "
+                     "`--steps 5`, while step 5 stands");
     command.option("--length", options->series.seconds, "Length of the turn")
         .between(0.1, interaction::kLongestFilm)
+        .needs(turn)
         .shows_default()
         .type_name("SECONDS");
     command.option("--rate", options->rate, "Frames per second")

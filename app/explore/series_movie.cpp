@@ -61,7 +61,7 @@ std::vector<interaction::KeyFrame> keys_of(const std::string& path) {
     if (keys.empty())
         throw interaction::Error(
             fmt::format("{}: a session without keys: Ctrl + M in `explore` makes them", path));
-    return keys;
+    return interaction::keys_from(interaction::keys_text(keys), path); // in order
 }
 
 /// @throws interaction::Error naming the first key that these data cannot show
@@ -85,6 +85,9 @@ void expect_fit(const std::vector<interaction::KeyFrame>& keys, const std::strin
 std::vector<interaction::KeyFrame> turn(const Session& session, const index::SeriesInfo& info,
                                         const SeriesMovie& movie) {
     const auto steps = steps_or_all(movie.steps, "--steps", info.steps());
+    if (steps.size() > 1 && steps[1] != steps[0] + 1)
+        throw UsageError(fmt::format("--turn: all steps pass, expected --steps FIRST:LAST, got {}",
+                                     movie.steps));
     return interaction::turn_keys(session.state(), physical_center(info.grid),
                                   index::Instant(steps.front()), index::Instant(steps.back()),
                                   movie.seconds);
@@ -118,6 +121,10 @@ interaction::Recording steps_seen(Session& session, const Config& config,
     if (movie.turn || !movie.keys.empty()) {
         const auto keys = movie.turn ? turn(session, info, movie) : keys_of(movie.keys);
         expect_fit(keys, movie.keys, session, info.steps());
+        constexpr double kMostFrames = 1 << 20;
+        if (const double frames = interaction::seconds_of(keys) * rate; frames > kMostFrames)
+            throw UsageError(fmt::format("--rate: a film has at most {:.0f} frames, got {:.4g}",
+                                         kMostFrames, frames));
         recording = film_of_keys(session, header, keys, rate);
     } else {
         PictureNote view = session.note();

@@ -267,6 +267,7 @@ interaction::Commands ExplorerState::way_to_start(const ExplorerState& start) co
     way.quality.reset();
     way.stereo.reset();
     way.views.reset();
+    way.keys.reset();
     way.tools.reset();
     way.steps.reset();
     way.follow.reset();

@@ -76,6 +76,12 @@ void MovingCells::draw_in_few_pixels(const Cells& cells, const Picture& picture,
     enlarge_.end(views, box_of(picture), layers);
 }
 
+bool MovingCells::draws_layers(const Picture& picture, render::Footprint footprint) const {
+    return moves_in_layers(picture, footprint) &&
+           (footprint == render::Footprint::mesh || picture.resolution > 0 ||
+            !has_several_samples(gl_));
+}
+
 void MovingCells::draw_in_layers(const Cells& cells, const Picture& picture,
                                  render::Footprint footprint, std::span<const render::View> views) {
     const render::Placement placement = placement_of(picture);
@@ -115,6 +121,7 @@ void MovingCells::warm_up(const Picture& picture, std::span<const render::View> 
     const glm::mat4 box = box_of(picture);
     enlarge_.begin(views, kCellResolutions.back(), linear_light);
     enlarge_.end(views, box, false);
+    layers_.link();
     const std::array opacities{0.5f, 0.5f};
     layers_.draw(views, opacities, [](std::size_t) {}, false, linear_light, box);
     layers_.draw(

@@ -39,6 +39,9 @@ class MovingCells {
     /// Draws quads in as few pixels as the picture says, with layers or without.
     void draw_in_few_pixels(const Cells& cells, const Picture& picture,
                             std::span<const render::View> views);
+    /// Whether `draw_in_layers` draws layers into the bound framebuffer: of several samples, it draws
+    /// a share of the quads.
+    bool draws_layers(const Picture& picture, render::Footprint footprint) const;
     /// Draws a mesh or quads by their nearest layers, opaque surfaces as they are.
     void draw_in_layers(const Cells& cells, const Picture& picture, render::Footprint footprint,
                         std::span<const render::View> views);

@@ -185,7 +185,7 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     render::CellAppearance appearance = appearance_of(picture);
     const bool moved =
         picture.moved && is_whole && !again && moving_.draw_moved(kept_, picture, views);
-    const bool layers = is_whole && moves_in_layers(picture, footprint);
+    const bool layers = is_whole && is_ready_to_move() && moving_.draws_layers(picture, footprint);
     const bool depth = moved || (writes_depth(footprint, appearance) && !layers);
     if (!depth && part.begins)
         draw_among_cells(views, picture, placement);

@@ -1,8 +1,9 @@
-// The SIMD targets of this processor, as Highway asks for them: these two functions are all that is needed
+// The SIMD targets of this processor, as Highway asks for them: these three functions are all that is needed
 // of its library, which measures a timer for 2 ms whenever it is loaded, thus in each command.
 #include <hwy/targets.h>
 
 #include <cstdint>
+#include <cstdlib>
 
 namespace hwy {
 
@@ -21,6 +22,11 @@ std::int64_t SupportedTargets() {
 ChosenTarget& GetChosenTarget() {
     static ChosenTarget chosen;
     return chosen;
+}
+
+/// Where an assertion fails.
+void Abort(const char*, int, const char*, ...) {
+    std::abort();
 }
 
 } // namespace hwy

@@ -71,7 +71,8 @@ class KeyedView {
         : data_(held_by<Similarity>(keys,
                                     [](const KeyFrame& key) { return key.room_from_physical; })),
           heads_(held_by<Pose>(keys, [](const KeyFrame& key) { return key.head; })) {
-        data_.times.closed = heads_.times.closed = is_closed(keys);
+        data_.times.closed = is_closed(keys);
+        heads_.times.closed = data_.times.closed && keys.front().head;
         if (!data_.values.empty())
             motion_.emplace(data_.times, data_.values, scene.pivot);
         if (heads_.values.empty())
@@ -227,7 +228,9 @@ std::vector<RecordedFrame> frames_of(std::span<const KeyFrame> keys, const KeySc
     const double seconds = seconds_of(keys);
     const auto last = static_cast<std::uint64_t>(std::ceil(seconds * scene.rate - 1e-6));
     std::vector<RecordedFrame> frames;
-    Settings shown = scene.start, at_key = scene.start;
+    Settings shown = scene.start;
+    shown.keys.clear(); // the film changes none
+    Settings at_key = shown;
     std::size_t passed = 0;
     for (std::uint64_t i = 0; i <= last; ++i) {
         RecordedFrame& frame = frames.emplace_back();

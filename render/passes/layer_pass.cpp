@@ -21,6 +21,11 @@ LayerPass::LayerPass(const Gl& gl) : gl_(&gl), no_attributes_(gl) {
             fmt::format("#define LAYERS {}\n", layers));
 }
 
+void LayerPass::link() const {
+    for (const LazyProgram& program : programs_)
+        program.name();
+}
+
 void LayerPass::draw(std::span<const View> views, std::span<const float> opacities,
                      const std::function<void(std::size_t layer)>& draw, bool hidden, bool linear,
                      const glm::mat4& room_from_box) {

@@ -39,6 +39,9 @@ class LayerPass {
               const std::function<void(std::size_t layer)>& draw, bool hidden, bool linear,
               const glm::mat4& room_from_box);
 
+    /// Links the programs for all numbers of layers.
+    void link() const;
+
   private:
     const Gl* gl_;
     std::vector<LazyProgram> programs_; ///< by the number of layers, less one

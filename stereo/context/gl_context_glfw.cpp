@@ -4,6 +4,8 @@
 #include "stereo/context/gl_context_glfw_native.h"
 #include "stereo/context/window_events.h"
 
+#include "index/error.h"
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -61,7 +63,11 @@ class GlfwLibrary {
     }
     GlfwLibrary() {
         glfw_complaint().clear();
-        glfwSetErrorCallback([](int, const char* text) { glfw_complaint() = text; });
+        try { // the first call loads GLFW
+            glfwSetErrorCallback([](int, const char* text) { glfw_complaint() = text; });
+        } catch (const index::Error& error) {
+            throw render::Error(error.what());
+        }
         if (!glfwInit())
             throw NoDisplay(
                 fmt::format("no display to open a window on, see DISPLAY ({}){}; `isochron replay` "

@@ -22,6 +22,15 @@ using RROutput = XID;
 #include <GLFW/glfw3native.h>
 
 namespace isochron::stereo {
+
+void* glfw_function(const char* name) {
+    try {
+        return index::module_symbol("isochron_glfw", name);
+    } catch (const index::Error&) {
+        return nullptr;
+    }
+}
+
 namespace {
 
 /// Looks up the configuration of a context, for both libraries: a context tells only its number.
@@ -64,10 +73,7 @@ struct GlfwOfX11 {
 
 GlfwOfX11 glfw_of_x11() {
     const auto find = []<class F>(F*& function, const char* name) {
-        try {
-            function = reinterpret_cast<F*>(index::module_symbol("isochron_glfw", name));
-        } catch (const index::Error&) {
-        }
+        function = reinterpret_cast<F*>(glfw_function(name));
     };
     GlfwOfX11 found{};
     find(found.display, "glfwGetX11Display");

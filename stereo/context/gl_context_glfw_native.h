@@ -1,4 +1,4 @@
-// The native handles of a GLFW window's context; only for gl_context_glfw.cpp.
+// What of GLFW depends on the window system.
 #pragma once
 
 #include "stereo/context/native_gl.h"
@@ -7,6 +7,10 @@ struct GLFWwindow;
 
 namespace isochron::stereo {
 
+/// GLFW's function of that name; null: this GLFW lacks it.
+void* glfw_function(const char* name);
+
+/// The native handles of a window's context.
 /// @return empty if the context was not made by EGL and the window system is not X11
 NativeGl native_of(GLFWwindow* window);
 

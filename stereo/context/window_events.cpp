@@ -1,6 +1,7 @@
 // Waits for the window system's events.
 #include "stereo/context/window_events.h"
 
+#include "stereo/context/gl_context_glfw_native.h"
 #include "stereo/context/glx_types.h"
 #include "stereo/context/shared_library.h"
 
@@ -12,7 +13,6 @@ using RROutput = XID;
 #define GLFW_EXPOSE_NATIVE_X11
 #include <GLFW/glfw3.h>
 #include <GLFW/glfw3native.h>
-#include <dlfcn.h>
 
 #include <algorithm>
 #include <chrono>
@@ -67,7 +67,7 @@ bool wait_for_window_events(const Wake& wake, Seconds longest) {
                                         std::clamp(longest, Seconds(0), kLongest));
     // A GLFW for Wayland alone lacks it.
     static const auto of_x11 =
-        reinterpret_cast<decltype(&glfwGetX11Display)>(dlsym(RTLD_DEFAULT, "glfwGetX11Display"));
+        reinterpret_cast<decltype(&glfwGetX11Display)>(glfw_function("glfwGetX11Display"));
     Display* display = of_x11 ? of_x11() : nullptr;
     return display ? wait_for_x_events(display, wake, end) : wait_for_other_events(wake, end);
 }

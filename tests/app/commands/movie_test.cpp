@@ -281,6 +281,9 @@ TEST_F(MovieTest, OfKeysGoesThroughThemAndIsTheSameTwiceAndAsARecording) {
         {"time": 0}, {"time": 1, "step": 6}]})");
     folder_.write("other.json", R"({"format": "isochron keys", "version": 1, "keys": [
         {"time": 0, "array": "none"}]})");
+    folder_.write("unsorted.isochron-session",
+                  R"({"format": "isochron session", "version": 1, "data": "sphere.isochron",
+        "state": {"keys": [{"time": 0}, {"time": 5}, {"time": 3}]}})");
     using Row = std::pair<std::vector<std::string>, std::string>;
     for (const auto& [wrong, words] :
          std::vector<Row>{{{"--keys", "late.json"},
@@ -289,6 +292,9 @@ TEST_F(MovieTest, OfKeysGoesThroughThemAndIsTheSameTwiceAndAsARecording) {
                           {{"--keys", "other.json"}, "other.json: key 1 does not fit the data: "},
                           {{"--keys", "none.json"}, "none.json: "},
                           {{"--keys", "keys.json", "--turn"}, "--keys: "},
+                          {{"--keys", "unsorted.isochron-session"}, "unsorted.isochron-session: "},
+                          {{"--turn", "--steps", "0:4:2"}, "--turn: all steps pass"},
+                          {{"--length", "5"}, "--length"},
                           {{"--turn", "--steps", "0:9"}, "--steps 0:9: "}}) {
         const ChildResult refused = movie("no/", wrong);
         EXPECT_NE(refused.status, 0);
@@ -296,6 +302,9 @@ TEST_F(MovieTest, OfKeysGoesThroughThemAndIsTheSameTwiceAndAsARecording) {
         EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
         EXPECT_FALSE(std::filesystem::exists(folder_.path() / "no"));
     }
+    EXPECT_THAT(
+        program({"movie", "sphere.isochron", "--turn", "--rate", "1e300", "-o", "no/"}).err,
+        testing::HasSubstr("--rate: a film has at most 1048576 frames, got "));
     EXPECT_NE(program({"movie", "film.jsonl", "--turn", "-o", "no/"}).status, 0);
     EXPECT_NE(program({"movie", "film.jsonl", "-o", "no.jsonl"}).status, 0);
     EXPECT_NE(movie("keys.json", {"--keys", "keys.json"}).status, 0);

@@ -6,6 +6,7 @@
 #include "app/kept/session_picture.h"
 #include "app/loop/session_keeper.h"
 #include "index/error.h"
+#include "interaction/navigation/key_frames.h"
 #include "tests/interaction/recording/random_commands.h"
 #include "tests/support/session_fixture.h"
 #include "tests/support/test_seed.h"
@@ -31,7 +32,7 @@ SavedSession kept_of(const ExplorerState& state) {
     return {"isochron test",
             "/data/sphere.isochron",
             "0123456789abcdef",
-            state.as_commands(),
+            interaction::kept_state(state.as_commands()),
             {{0.1f, 1.6f, -0.3f}, 0.123456789f, -0.2f}};
 }
 

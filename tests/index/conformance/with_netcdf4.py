@@ -50,6 +50,15 @@ with new("group.nc") as file:
     add(file, -moving, "rho")
 expect("group.nc", moving, array="run/p", times=[0, 1, 2.5], **where)
 expect("group.nc", -moving, array="rho", times=[0, 1, 2.5], **where)
+with new("units.nc") as file:  # each step is a group, whose time has a unit of its own
+    for number, (at, unit) in enumerate(((0, "hours since 2000-02-27"), (6, "hours since 2000-02-27"),
+                                         (180, "minutes since 2000-02-28"))):
+        group = file.createGroup(f"step{number}")
+        group.createVariable("rho", "f4", ("z", "y", "x"))[:] = moving[number]
+        time = group.createVariable("time", "f8", ())
+        time.units = unit
+        time[...] = at
+expect("units.nc", moving, times=[0, 6, 27], **where)
 # Files that count from other dates are in the first one's unit, as num2date and date2num have it.
 for calendar in ("standard", "noleap", "360_day"):
     first, second = "days since 2000-02-27", "hours since 2000-03-01 06:00"

@@ -328,6 +328,20 @@ TEST(KeyFrames, HeadsGoThroughThePosesOfTheKeys) {
     EXPECT_EQ(frames[1].input.find("wand")->pose, kStanding);
 }
 
+TEST(KeyFrames, HeadsRestAtTheFirstAndTheLastKeyThatHasOne) {
+    std::vector<KeyFrame> keys{key_at(0), key_at(2), key_at(4), key_at(6), key_at(8)};
+    for (std::size_t i = 1; i < 4; ++i)
+        keys[i].head = Pose{{static_cast<float>(i), 1.5f, 0}, {1, 0, 0, 0}};
+    KeyScene scene{.seen = {Seconds(0), {}}, .times = kEvenSteps, .rate = 100};
+    const auto frames = frames_of(keys, scene);
+    const auto head = [&](std::size_t frame) {
+        return frames.at(frame).input.find("head")->pose->position.x;
+    };
+    EXPECT_NEAR(head(201), 1, 1e-3) << "evenly it would have gone 5e-3";
+    EXPECT_NEAR(head(599), 3, 1e-3);
+    EXPECT_GT(head(201 + 99), 1.3f);
+}
+
 TEST(KeyFrames, ATurnIsEvenAndEndsWhereItBegan) {
     Settings settings;
     settings.room_from_physical = {{-0.5, 1, -2}, glm::normalize(glm::dquat(1, 0.5, 0, 0)), 0.1, 2};

@@ -90,7 +90,9 @@ void take_text_type(const json& type, ZarrDescription& said) {
     if (!said.date_unit.empty()) {
         said.texts = ZarrTexts::dates;
         said.text_bytes = sizeof(std::int64_t);
-    } else if (said.texts != ZarrTexts::varying && said.text_bytes == 0) {
+    } else if (said.texts != ZarrTexts::varying &&
+               (said.text_bytes == 0 ||
+                (said.texts == ZarrTexts::utf32 && said.text_bytes % 4 != 0))) {
         said.texts = ZarrTexts::none;
     }
 }

@@ -41,7 +41,7 @@ constexpr std::array<DateUnit, 14> kDateUnits{{{"Y", 12},
 
 /// A count of units since 1970 as ISO 8601 has it; empty: it is no time, or none of the calendar.
 std::string text_of_date(std::int64_t count, const DateUnit& unit, std::int64_t factor) {
-    if (count == std::numeric_limits<std::int64_t>::min() ||
+    if (count == std::numeric_limits<std::int64_t>::min() || factor <= 0 ||
         __builtin_mul_overflow(count, factor, &count))
         return {};
     const auto floored = [](std::int64_t number, std::int64_t by) {
@@ -51,7 +51,8 @@ std::string text_of_date(std::int64_t count, const DateUnit& unit, std::int64_t 
     std::int64_t seconds = 0, part = 0;
     std::optional<std::int64_t> day;
     if (unit.months > 0) {
-        if (__builtin_mul_overflow(count, unit.months, &count) || std::abs(count) > 1'000'000)
+        if (__builtin_mul_overflow(count, unit.months, &count) || count < -1'000'000 ||
+            count > 1'000'000)
             return {};
         const std::int64_t years = floored(count, 12);
         day = day_number({static_cast<int>(1970 + years), static_cast<int>(count - 12 * years) + 1},
@@ -61,7 +62,7 @@ std::string text_of_date(std::int64_t count, const DateUnit& unit, std::int64_t 
         for (int i = 0; i < unit.digits; ++i)
             parts *= 10;
         seconds = floored(count, parts);
-        part = count - seconds * parts;
+        part = (count % parts + parts) % parts;
         day = floored(seconds, kDay);
     } else if (!__builtin_mul_overflow(count, unit.seconds, &seconds)) {
         day = floored(seconds, kDay);
@@ -123,7 +124,7 @@ std::vector<std::string> ZarrArray::texts() {
     constexpr std::uint64_t kMost = 1 << 20;
     const std::uint64_t count = said_.shape.empty() ? 1 : said_.shape.front();
     if (said_.texts == ZarrTexts::none || said_.shape.size() > 1 || count > kMost ||
-        values_in_chunk() * said_.element() > kMostTexts)
+        values_in_chunk() > kMost || values_in_chunk() * said_.element() > kMostTexts)
         return {};
     expect_known_codecs();
     const std::size_t of_chunk = values_in_chunk();

@@ -4,6 +4,7 @@
 #include "index/readers/formats/series/numbered_groups.h"
 #include "index/readers/formats/stated/array_places.h"
 #include "index/readers/formats/stated/stated_times.h"
+#include "index/volume/time_unit.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -30,6 +31,18 @@ std::optional<StatedAxis> time_of(const StatedAttributes& object) {
     return std::nullopt;
 }
 
+/// Converts times to the unit of those before. Times that cannot be converted are left out, so that
+/// names of groups decide.
+void in_unit_of(const StatedAxis& before, StatedAxis& time) {
+    const std::string from = with_calendar(time.unit, time.calendar),
+                      to = with_calendar(before.unit, before.calendar);
+    if (before.at.empty() || before.unit.empty() || time.unit.empty() || from == to)
+        return;
+    time.at = times_in(to, from, std::move(time.at)).value_or(std::vector<double>());
+    time.unit = before.unit;
+    time.calendar = before.calendar;
+}
+
 } // namespace
 
 bool states_time(const StatedAttributes& group) {
@@ -47,6 +60,7 @@ void place_group_times(std::span<const std::string> paths,
             if (!time)
                 time = time_of(object_at(group));
             if (time) {
+                in_unit_of(all, *time);
                 std::ranges::copy(time->at, std::back_inserter(all.at));
                 std::ranges::copy(time->dates, std::back_inserter(all.dates));
                 time->at.swap(all.at);

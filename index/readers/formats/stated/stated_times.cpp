@@ -40,8 +40,8 @@ std::optional<double> seconds_of(const std::string& text) {
         if (std::sscanf(rest.data(), ":%2d%n", &second, &end) == 1)
             pass(end);
         if (rest.starts_with('.')) {
-            const auto [behind, failure] =
-                std::from_chars(rest.data(), rest.data() + rest.size(), fraction);
+            const auto [behind, failure] = std::from_chars(rest.data(), rest.data() + rest.size(),
+                                                           fraction, std::chars_format::fixed);
             pass(failure == std::errc{} ? static_cast<int>(behind - rest.data()) : 1);
         }
     }
@@ -60,9 +60,12 @@ std::optional<double> seconds_of(const std::string& text) {
     if (!rest.empty() || !days || hour < 0 || hour > 23 || minute < 0 || minute > 59 ||
         second < 0 || second > 60 || std::abs(zone_hour) > 14 || std::abs(zone_minute) > 59)
         return std::nullopt;
-    return static_cast<double>(*days * 86400 + (hour - zone_hour) * 3600 +
-                               (minute - zone_minute) * 60 + second) +
-           fraction;
+    const double seconds = static_cast<double>(*days * 86400 + (hour - zone_hour) * 3600 +
+                                               (minute - zone_minute) * 60 + second) +
+                           fraction;
+    const auto of_calendar =
+        date_of(static_cast<std::int64_t>(std::floor(seconds / 86400)), Calendar::gregorian);
+    return of_calendar ? std::optional(seconds) : std::nullopt;
 }
 
 /// Whether a text stands for no date.
@@ -281,10 +284,12 @@ void place_dates(std::span<const std::string> dates, const std::string& name, Se
     if (stated.values.size() != dates.size()) {
         const auto none = std::ranges::find_if(
             dates, [](const std::string& date) { return !is_no_date(date) && !seconds_of(date); });
-        TextDates read = dates_of_texts({dates.begin(), dates.end()}, said);
+        std::vector<std::string> there(dates.begin(), dates.end());
+        std::erase_if(there, is_no_date);
+        const TextDates read = dates_of_texts(there, said);
         if (read.seconds.empty()) {
             info.notes.push_back(read.open
-                                     ? open_dates(name, dates.front()) + ": steps have no times"
+                                     ? open_dates(name, there.front()) + ": steps have no times"
                                      : fmt::format("{} of step {} is no date: steps have no "
                                                    "times",
                                                    name, none - dates.begin()));
@@ -293,7 +298,10 @@ void place_dates(std::span<const std::string> dates, const std::string& name, Se
         if (read.year_last)
             info.notes.push_back(
                 fmt::format("{}: dates are read as {}", name, name_of(read.order)));
-        stated.values = std::move(read.seconds);
+        stated.values.clear();
+        for (auto next = read.seconds.begin(); const std::string& date : dates)
+            stated.values.push_back(is_no_date(date) ? std::numeric_limits<double>::quiet_NaN()
+                                                     : *next++);
     }
     const auto first = std::ranges::find_if(stated.values, [](double at) { return at == at; });
     const double begin = first == stated.values.end() ? 0 : std::floor(*first);

@@ -52,7 +52,7 @@ class Scalars(SeriesTest):
             for call in (run.cells, run[0].cells, run.mesh, run[0].mesh, run.change, run.first_crossings,
                          lambda isovalue: run.export("e.ply", isovalue), lambda isovalue: run.change(1, to_isovalue=isovalue)
                          if isovalue is not None else run.cells(isovalue)):
-                with self.subTest(value=value), self.assertRaisesRegex(isochron.Error, "isovalue: expected a finite number, got"):
+                with self.subTest(value=value), self.assertRaisesRegex(isochron.Error, "isovalue: expected a (finite )?number, got"):
                     call(value)
 
     def test_arguments_of_other_kinds_are_errors_of_ours(self):

@@ -23,6 +23,17 @@
 namespace isochron::app {
 namespace {
 
+/// What words cover; empty without words.
+std::optional<TextRectangle> covered_by(std::span<const render::ScreenQuad> quads) {
+    std::optional<TextRectangle> covered;
+    for (const render::ScreenQuad& quad : quads) {
+        const glm::vec2 at(quad.at);
+        const TextRectangle before = covered.value_or(TextRectangle{at + quad.low, at});
+        covered = {glm::min(before.low, at + quad.low), glm::max(before.high, at + quad.high)};
+    }
+    return covered;
+}
+
 constexpr float kWandLength = 1.2f; // meters
 // Widths of lines [pixel], of words that are 15 pixels high at most.
 constexpr float kThin = 1.5f, kPointing = 2.5f; ///< its ray
@@ -208,12 +219,15 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
         kept_.keep(picture, views);
     if (depth)
         draw_among_cells(views, picture, placement);
-    draw_before_cells(views, picture, placement);
+    std::vector<CornerWords> corners;
+    for (const render::View& view : views)
+        corners.push_back(words_in_corners(view, picture));
+    draw_before_cells(views, picture, placement, corners);
     const auto callouts = callouts_of(picture, picture.pointed, info_);
     const auto papers = papers_of(callouts, text_pass_.atlas(), views, picture.layout.text,
                                   picture.layout.free.top > 0);
-    for (const render::View& view : views)
-        draw_over_cells(view, picture, {callouts, papers, views.size() == 1});
+    for (std::size_t i = 0; i < views.size(); ++i)
+        draw_over_cells(views[i], picture, {callouts, papers, views.size() == 1, corners[i]});
     return done;
 }
 
@@ -326,47 +340,39 @@ void Scene::draw_among_cells(std::span<const render::View> views, const Picture&
     }
 }
 
-/// What legend, scale bar with axes, and caption cover.
-std::vector<Covered> Scene::words_in_corners(std::span<const render::View> views,
-                                             const Picture& picture) const {
+Scene::CornerWords Scene::words_in_corners(const render::View& view, const Picture& picture) const {
     const OverlayColors overlay = overlay_of(picture);
     const float share = picture.layout.text;
-    std::array<Covered, 3> corners;
-    for (const render::View& view : views) {
-        std::array<std::vector<render::ScreenQuad>, 3> quads;
-        if (picture.legend)
-            quads[0] = legend_quads({picture.isosurfaces, info_.value_unit, picture.scale, overlay},
+    CornerWords words;
+    if (picture.legend)
+        words.legend = legend_quads({picture.isosurfaces, info_.value_unit, picture.scale, overlay},
                                     text_pass_, view.size, share);
-        if (picture.orientation)
-            quads[1] =
-                orientation_in(view, picture.room_from_physical, info_, text_pass_, overlay, share)
-                    .quads;
-        if (!picture.caption.empty())
-            quads[2] = caption_quads(picture.caption, text_pass_, view.size, overlay, share);
-        for (std::size_t i = 0; i < quads.size(); ++i) {
-            std::optional<TextRectangle>& covered = corners[i].emplace_back();
-            for (const render::ScreenQuad& quad : quads[i]) {
-                const glm::vec2 at(quad.at);
-                const TextRectangle before = covered.value_or(TextRectangle{at + quad.low, at});
-                covered = {glm::min(before.low, at + quad.low),
-                           glm::max(before.high, at + quad.high)};
-            }
-        }
-    }
-    return {corners.begin(), corners.end()};
+    if (picture.orientation)
+        words.orientation =
+            orientation_in(view, picture.room_from_physical, info_, text_pass_, overlay, share);
+    if (!picture.caption.empty())
+        words.caption = caption_quads(picture.caption, text_pass_, view.size, overlay, share);
+    return words;
 }
 
 /// The edges of the box that no cell hides. The numbers are on its outline, where no cell is in front
 /// of them or behind.
 void Scene::draw_before_cells(std::span<const render::View> views, const Picture& picture,
-                              const render::Placement& placement) {
+                              const render::Placement& placement,
+                              std::span<const CornerWords> corners) {
     if (!picture.bounding_box)
         return;
     Axes axes = axes_for(info_, placement, picture.audience.viewers.front().head, views);
     set_colors(axes, overlay_of(picture));
+    std::array<Covered, 3> taken;
+    for (const CornerWords& words : corners) {
+        taken[0].push_back(covered_by(words.legend));
+        taken[1].push_back(covered_by(words.orientation.quads));
+        taken[2].push_back(covered_by(words.caption));
+    }
     const std::vector<render::Label> labels =
         labels_with_room(axes.labels, text_pass_.atlas(), placement.room_from_index, views,
-                         picture.layout.text, words_in_corners(views, picture));
+                         picture.layout.text, {taken.begin(), taken.end()});
     for (const render::View& view : views) {
         render::BoxLines box = box_in(view, picture, placement);
         std::vector<render::Line> lines = std::move(box.outline);
@@ -388,20 +394,15 @@ void Scene::draw_over_cells(const render::View& view, const Picture& picture, co
     for (std::size_t i = 0; i < words.callouts.size(); ++i)
         draw_callout(view, picture, words.callouts[i], words.papers[i], words.whole_pixels);
     veil_pass_.draw(view, picture.veil);
-    const OverlayColors overlay = overlay_of(picture);
-    if (picture.legend)
-        text_pass_.draw(
-            render::pixel_view(view), glm::mat4(1.0f),
-            legend_quads({picture.isosurfaces, info_.value_unit, picture.scale, overlay},
-                         text_pass_, view.size, picture.layout.text),
-            render::TextPass::Depth::none, true);
+    const auto draw = [&](std::span<const render::ScreenQuad> quads) {
+        if (!quads.empty())
+            text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f), quads,
+                            render::TextPass::Depth::none, true);
+    };
+    draw(words.corners.legend);
     if (picture.orientation)
-        draw_orientation(view, picture);
-    if (!picture.caption.empty())
-        text_pass_.draw(
-            render::pixel_view(view), glm::mat4(1.0f),
-            caption_quads(picture.caption, text_pass_, view.size, overlay, picture.layout.text),
-            render::TextPass::Depth::none, true);
+        draw_orientation(view, picture, words.corners.orientation);
+    draw(words.corners.caption);
 }
 
 /// The panel is drawn over the cells so that viewers who stand among them can read it with both
@@ -448,9 +449,8 @@ void Scene::draw_callout(const render::View& view, const Picture& picture, const
                         render::TextPass::Depth::none, whole_pixels);
 }
 
-void Scene::draw_orientation(const render::View& view, const Picture& picture) {
-    const Orientation shown = orientation_in(view, picture.room_from_physical, info_, text_pass_,
-                                             overlay_of(picture), picture.layout.text);
+void Scene::draw_orientation(const render::View& view, const Picture& picture,
+                             const Orientation& shown) {
     const render::View pixels = render::pixel_view(view);
     gl_.DepthRange(0.0, 0.0); // nearer than all that has been drawn
     for (const render::Line& line : shown.lines)

@@ -12,6 +12,7 @@
 #include "app/scene/cell_warm_up.h"
 #include "app/scene/cells_picture.h"
 #include "app/scene/moving_cells.h"
+#include "app/scene/orientation.h"
 #include "app/scene/picture.h"
 #include "index/volume/volume_series.h"
 #include "render/drawing/cell_pass.h"
@@ -102,23 +103,30 @@ class Scene {
     render::Placement placement_of(const Picture& picture) const;
     void draw_among_cells(std::span<const render::View> views, const Picture& picture,
                           const render::Placement& placement);
+    /// Legend, scale bar with axes, and caption of a view, as far as the picture has them.
+    struct CornerWords {
+        std::vector<render::ScreenQuad> legend, caption;
+        Orientation orientation;
+    };
+    CornerWords words_in_corners(const render::View& view, const Picture& picture) const;
     void draw_before_cells(std::span<const render::View> views, const Picture& picture,
-                           const render::Placement& placement);
-    /// The words that stand beside places, and where.
+                           const render::Placement& placement,
+                           std::span<const CornerWords> corners);
+    /// The words that stand beside places, and where, and those in the corners.
     struct Words {
         std::span<const Callout> callouts;
         std::span<const CalloutPaper> papers;
         bool whole_pixels; ///< one eye sees them
+        const CornerWords& corners;
     };
-    std::vector<Covered> words_in_corners(std::span<const render::View> views,
-                                          const Picture& picture) const;
     void draw_over_cells(const render::View& view, const Picture& picture, const Words& words);
     void draw_panel(const render::View& view, const Picture& picture);
     void draw_ray(const render::View& view, const Picture& picture, const Aids& aids);
     void draw_callout(const render::View& view, const Picture& picture, const Callout& callout,
                       const CalloutPaper& paper, bool whole_pixels);
     void draw_tools(const render::View& view, const Picture& picture);
-    void draw_orientation(const render::View& view, const Picture& picture);
+    void draw_orientation(const render::View& view, const Picture& picture,
+                          const Orientation& shown);
 
     const render::Gl& gl_;
     index::SeriesInfo info_;

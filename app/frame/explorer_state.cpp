@@ -4,6 +4,7 @@
 #include "index/export/surface_writer.h"
 #include "index/volume/step_gaps.h"
 #include "interaction/command_fields.h"
+#include "interaction/navigation/key_frames.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/recording/commands_json.h"
 #include "render/passes/color_map.h"
@@ -252,14 +253,7 @@ interaction::Commands ExplorerState::as_commands() const {
 }
 
 interaction::Commands ExplorerState::commands_to(const ExplorerState& target) const {
-    interaction::Commands changes;
-    interaction::each_setting(
-        [](const Field& field, auto& command, const auto& mine, const auto& other) {
-            if (field.undone && !(mine == other))
-                command = other;
-        },
-        changes, *this, target);
-    return changes;
+    return interaction::changes(*this, target, true);
 }
 
 interaction::Commands ExplorerState::way_to_start(const ExplorerState& start) const {

@@ -69,11 +69,11 @@ Commands kept_state(Commands state) {
     return state;
 }
 
-Commands changes(const Settings& from, const Settings& to) {
+Commands changes(const Settings& from, const Settings& to, bool undone) {
     Commands commands;
     each_setting(
-        [](const Field&, auto& command, const auto& before, const auto& after) {
-            if (!(before == after))
+        [undone](const Field& field, auto& command, const auto& before, const auto& after) {
+            if ((field.undone || !undone) && !(before == after))
                 command = after;
         },
         commands, from, to);

@@ -42,7 +42,7 @@ void show_key(const KeyFrame& key, Settings& settings);
 std::optional<std::vector<Isosurface>> surfaces_of(const KeyFrame& key, const Settings& before);
 /// A whole state as files keep it: without an empty list of keys, which earlier versions do not know.
 Commands kept_state(Commands state);
-/// Commands for the settings that differ.
-Commands changes(const Settings& from, const Settings& to);
+/// Commands for the settings that differ. @param undone only for those that undo brings back
+Commands changes(const Settings& from, const Settings& to, bool undone = false);
 
 } // namespace isochron::interaction

@@ -92,6 +92,16 @@ std::string range_text(double low, double high, const std::string& unit) {
     return fmt::format("{:.{}g} to {:.{}g}{}", low, digits, high, digits, with_space(unit));
 }
 
+std::string missing_text(std::uint64_t missing, const index::SeriesInfo& info) {
+    if (missing == 0)
+        return "";
+    const std::uint64_t all = info.grid.vertex_count() * info.steps();
+    const double percent = 100.0 * static_cast<double>(missing) / static_cast<double>(all);
+    return percent < 0.1   ? "less than 0.1 %"
+           : missing < all ? fmt::format("{:.1f} %", std::min(percent, 99.9))
+                           : "all";
+}
+
 std::string upper_text(double bound, const std::string& unit) {
     if (!(bound > 0))
         return with_unit(bound, unit);

@@ -33,6 +33,9 @@ std::string with_unit(double value, const std::string& unit);
 /// `99960.6 to 102725 Pa`: both ends in as many digits, which tell them apart to a thousandth of the range.
 std::string range_text(double low, double high, const std::string& unit = {});
 
+/// `3.7 %`: the share of the values of all steps that are missing (NaN); empty: none is.
+std::string missing_text(std::uint64_t missing, const index::SeriesInfo& info);
+
 /// `64 x 64 x 64, 10 steps`: the vertices along each axis.
 std::string grid_words(const index::SeriesInfo& info);
 

@@ -304,29 +304,31 @@ void add_movie(Command& program) {
         .required()
         .type_name("FILE");
     command
-        .option("--isovalue", options->series.isovalue,
-                "Of an index, the surface to show (default: the one that `explore` shows first)")
+        .option(
+            "--isovalue", options->series.isovalue,
+            "With an index: isovalue of the surface (default: the one that `explore` shows first)")
         .type_name("VALUE");
     command
         .option("--steps,--step", options->series.steps,
-                "Of an index, the steps to show, numbered from 0: `0:63` for 0 to 63, or `0:63:4` "
+                "With an index: steps to show, numbered from 0: `0:63` for 0 to 63, or `0:63:4` "
                 "for every fourth of them (default: all)")
         .type_name("FIRST:LAST[:STRIDE]");
     command
         .option(
             "--between", options->series.between,
-            "Of an index, what to show between two steps: `hold` shows the step before, `blend` "
+            "With an index: what to show between two steps: `hold` shows the step before, `blend` "
             "a blend of both (default: what `isochron info` advises)")
         .one_of(interaction::all_names<interaction::BetweenSteps>())
         .type_name("MODE");
     command
         .option("--keys", options->series.keys,
-                "Of an index, a film through key frames: a file of keys (docs/FORMATS.md), or a "
-                "session that has keys (Ctrl + M in `explore`)")
+                "With an index: file of the key frames that the film goes through "
+                "(docs/FORMATS.md), or a session that has "
+                "keys (Ctrl + M in `explore`)")
         .type_name("FILE");
     const Option turn =
         command.flag("--turn", options->series.turn,
-                     "Of an index, one turn about the data's up axis while the steps pass; with "
+                     "With an index: one turn about the data's up axis while the steps pass; with "
                      "`--steps 5`, while step 5 stands");
     command.option("--length", options->series.seconds, "Length of the turn")
         .between(0.1, interaction::kLongestFilm)

@@ -173,8 +173,8 @@ void add_serve(Command& program) {
     command
         .option(
             "--certificate", arguments->certificate,
-            "Certificate in PEM, to serve by https: headsets open the page in VR only so, or from "
-            "localhost")
+            "Certificate in PEM, to serve by https: headsets open the page in VR only by https or "
+            "from localhost")
         .type_name("FILE");
     command.option("--key", arguments->key, "Private key of the certificate, in PEM")
         .type_name("FILE");

@@ -53,7 +53,7 @@ void add_verify(Command& program) {
         {"isochron verify run42.isochron", "isochron verify run42.isochron && echo intact"});
     command.option("file", *path, "Index to check").required().type_name("INDEX");
     command.footer("If the index refers to files instead of holding their values, these files are "
-                   "checked, too. Damage is told in one line that says where it is.");
+                   "checked, too. One line says where the damage is.");
     command.exit_status(0, "intact");
     command.exit_status(1, "damaged");
     command.on_run([path] { run_verify(*path); });

@@ -57,8 +57,8 @@ void add_replay_source(Command& command, ReplaySource& source, const std::string
                  "Add isovalue, time, axes and a scale bar to the pictures");
     command
         .option("--picture-background", source.background,
-                "Background of the pictures instead of the recorded one; movies have white in the "
-                "place of transparent")
+                "Background of the pictures instead of the recorded one. Movies are white where "
+                "it is transparent")
         .one_of(interaction::all_names<interaction::WrittenBackground>())
         .type_name("BACKGROUND");
     command.option("--dpi", source.dpi, "Pixels an inch that picture files say (default: nothing)")

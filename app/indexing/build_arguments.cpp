@@ -455,8 +455,8 @@ std::pair<Option, Option> add_index_options(Command& command, BuildArguments& ar
     command
         .flag("--append", arguments.append,
               "Add to the index the steps that it does not hold yet. FILE... are the files of all "
-              "steps, beginning with those that the index holds. The index keeps its options where "
-              "none are given")
+              "steps, beginning with those that the index holds. Options that are not given "
+              "stay as the index was built")
         .group(index_group);
     command
         .flag("--refer", arguments.refer,

@@ -167,7 +167,7 @@ constexpr OtherNames kOtherNames[] = {
                   "load camera"},
     // Stereo.
     {"stereo", "3d glasses, 3d display, stereoscopic, stereo mode, 3d tv, vr, virtual reality, "
-               "headset, hmd, oculus, quest, side by side eyes"},
+               "headset, hmd, oculus, quest, side by side eyes, split screen, split view"},
     {"stereo=anaglyph", "red cyan, red blue glasses, 3d glasses, red green"},
     {"next_stereo", "stereo, 3d"},
     {"eyes", "eye separation, interocular distance, interpupillary distance, ipd, stereo depth, "
@@ -206,7 +206,7 @@ constexpr OtherNames kOtherNames[] = {
     {"flip_clip", "invert clip, other side, inside out, reverse clip, flip plane"},
     {"remove_clip", "no clip, clip off, unclip, remove slice, delete clip plane, show whole"},
     {"ruler_tool", "measure, measurement, distance, length, tape, line tool, dimension, caliper, "
-                   "how far, how long, width"},
+                   "how far, how long, width, distance between points"},
     {"remove_ruler", "clear measurements, delete measurement, remove distance, remove ruler, erase "
                      "measurement"},
     {"remove_mark", "delete markers, clear marks, remove marker, remove point, clear selection, "
@@ -225,7 +225,7 @@ constexpr OtherNames kOtherNames[] = {
     {"last_step", "last frame, last timestep, last time step, end, final frame, newest"},
     {"play", "pause, stop, animate, animation, start playback, run, resume, movie playback"},
     {"reverse", "play backwards, backward, rewind, reverse time, time reversal"},
-    {"loop", "repeat, cycle, endless, play once"},
+    {"loop", "repeat, cycle, endless, play once, loop animation, loop playback"},
     {"ping_pong", "pingpong, bounce, boomerang, to and fro, forth and back, palindrome, swing"},
     {"speed",
      "playback speed, play speed, animation speed, slower, faster, time scale, slow motion, "
@@ -296,14 +296,17 @@ constexpr OtherNames kOtherNames[] = {
     {"data",
      "information, info, properties, metadata, dimensions, units, unit, voxel size, spacing, "
      "extent, bounds, size, value range, shape, number of points, statistics, memory size, "
-     "pixel size, data type, details, header, minimum, maximum"},
+     "pixel size, data type, details, header, minimum, maximum, missing values, nan, holes, gaps, "
+     "fill value"},
     {"array", "variable, scalar, scalars, active scalars, field, channel, quantity, component, "
               "contour by, layer, attribute, dataset"},
-    {"next_array", "next variable, switch variable, other field"},
+    {"next_array", "next variable, switch variable, other field, next layer"},
     {"undo", "take back, revert, go back, undo camera, previous view"},
     {"redo", "do again, repeat change, restore change"},
-    {"panel", "sidebar, side panel, hide sidebar, hide panel, toolbar, properties, dock, ui, hide "
-              "interface, menu, distraction free, inspector"},
+    {"panel",
+     "sidebar, side panel, hide sidebar, hide panel, toolbar, properties, dock, ui, hide "
+     "interface, menu, distraction free, inspector, outliner, layer list, pipeline browser, "
+     "tree view, scene tree"},
     {"quit", "exit, close, close program, leave"},
     {"ask_to_quit", "exit, close, close program, quit program, leave"},
 };

@@ -9,7 +9,7 @@ namespace isochron::app {
 
 /// The amount that one frame draws, summed over all eyes and windows.
 struct DrawLoad {
-    double cells = 0;  ///< each counted once per view
+    double cells = 0;  ///< each counted once for each view and each pass over the cells
     double pixels = 0; ///< pixels of the views
     bool operator==(const DrawLoad&) const = default;
 };

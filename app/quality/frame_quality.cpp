@@ -296,6 +296,16 @@ std::optional<std::size_t> FrameQuality::choose_mesh(MeshesAtHand meshes) {
     return mesh_levels_.choose(meshes);
 }
 
+void FrameQuality::charge(const DrawLoad& of_cell,
+                          std::span<const interaction::Isosurface> surfaces) {
+    const auto layers = std::ranges::count_if(surfaces, [](const interaction::Isosurface& surface) {
+        return surface.opacity > 0 && surface.opacity < 1;
+    });
+    passes_ = static_cast<double>(layers + (interaction::any_is(surfaces, false) ? 1 : 0));
+    passes_ = std::max(passes_, 1.0);
+    charged_ = {of_cell.cells * passes_, of_cell.pixels};
+}
+
 void FrameQuality::begin(std::uint64_t frame) {
     meter_.begin(frame);
 }
@@ -305,7 +315,8 @@ void FrameQuality::end(const FrameReport& report, const DrawLoad& of_cell, Milli
     const double cells = report.triangles > 0
                              ? static_cast<double>(report.triangles) / kTrianglesOfCell
                              : static_cast<double>(report.cells);
-    meter_.end(report.footprint, {cells * view_.cells, view_.pixels}, processor, report.resolution);
+    meter_.end(report.footprint, {cells * view_.cells * passes_, view_.pixels}, processor,
+               report.resolution);
 }
 
 unsigned FrameQuality::missed(interaction::Seconds between) const {

@@ -1,7 +1,7 @@
 // The quality of a session's frames: budgets, measured draw times, and the choice of footprint.
 //
 //     quality.learn(quality.collect(log));                  // every frame
-//     quality.charge(quality.view());
+//     quality.charge(quality.view(), state.isosurfaces);
 //     const Choosing how = Choosing::with_parts;
 //     const FramePlan plan = quality.choose(state, changed, how, footprints, possible, report);
 //     if (plan.state.is_trial() || changed) {
@@ -59,9 +59,12 @@ class FrameQuality {
 
     /// Load of one cell in every view of the last frame: the number of views, and their pixels.
     const DrawLoad& view() const { return view_; }
-    /// Sets the load per cell for the next choice: in a cluster the load of the process which draws
-    /// most, as all processes draw with the same footprint.
-    void charge(const DrawLoad& of_cell) { charged_ = of_cell; }
+    /// Sets the load per cell for the next choice.
+    /// @param of_cell in a cluster that of the process which draws most, as all processes draw with
+    ///   the same footprint
+    /// @param surfaces that are drawn: cells count once for all opaque ones, and once more for each
+    ///   one that lets light through, as each is drawn in a pass of its own while it moves
+    void charge(const DrawLoad& of_cell, std::span<const interaction::Isosurface> surfaces);
 
     /// Advances by one frame and plans how it is drawn, at its report's time and pace and with its
     /// cells; which cells come next is for others to plan. The report gets the budget and the
@@ -157,8 +160,9 @@ class FrameQuality {
     interaction::Seconds frame_before_{0};
     std::optional<Resting> resting_; ///< while parts are made or shown
     DrawMeter meter_;
-    DrawLoad view_; ///< load of one cell in all views of the frame drawn last
-    DrawLoad charged_;
+    DrawLoad view_;       ///< load of one cell in all views of the frame drawn last
+    DrawLoad charged_;    ///< load of one cell in all views and passes
+    double passes_ = 1.0; ///< over the cells
 };
 
 } // namespace isochron::app

@@ -98,14 +98,22 @@ void write_scale(const ColorScale& scale, Layout& layout) {
     layout.write(scale.title, {0.0f, kBarHeight + 1.6f});
 }
 
+bool is_seen(const interaction::Isosurface& surface) {
+    return surface.opacity > 0;
+}
+
 void write_surfaces(const Legend& legend, Layout& layout) {
     float y = layout.top() + (layout.top() > 0.0f ? 1.0f : 0.5f);
     for (const interaction::Isosurface& surface : legend.surfaces) {
+        if (!is_seen(surface))
+            continue;
         if (!legend.scale)
             layout.fill_rimmed({0.0f, y - 0.4f}, {kBarWidth, 0.8f}, glm::vec4(surface.color, 1.0f));
         layout.write(with_unit(surface.isovalue, legend.value_unit), {kBarWidth + 0.7f, y});
         y += 1.3f;
     }
+    if (legend.scale)
+        layout.write(legend.array, {0.0f, y});
 }
 
 } // namespace
@@ -124,7 +132,7 @@ float line_scale(const glm::ivec2& picture, float share) {
 
 std::vector<render::ScreenQuad> legend_quads(const Legend& legend, const render::TextPass& text,
                                              const glm::ivec2& picture, float share) {
-    const bool several = legend.surfaces.size() > 1;
+    const bool several = std::ranges::count_if(legend.surfaces, is_seen) > 1;
     if (!legend.scale && !several)
         return {};
     Layout layout(text, picture, legend.overlay, share);

@@ -17,10 +17,12 @@
 namespace isochron::app {
 
 struct Legend {
-    std::span<const interaction::Isosurface> surfaces; ///< listed if there are several
-    std::string value_unit;                            ///< unit of their isovalues
-    std::optional<ColorScale> scale;                   ///< scale of colored surfaces; empty: none
+    std::span<const interaction::Isosurface>
+        surfaces;                    ///< those that are seen are listed if there are several
+    std::string value_unit;          ///< unit of their isovalues
+    std::optional<ColorScale> scale; ///< scale of colored surfaces; empty: none
     OverlayColors overlay{};
+    std::string array{}; ///< that has the isovalues; stands over them where the scale is another's
 };
 
 /// Height of text in a picture [pixel], a whole number.

@@ -94,15 +94,19 @@ void MovingCells::draw_in_layers(const Cells& cells, const Picture& picture,
     std::vector<float> opacities;
     for (std::size_t i = 0; i < count; ++i)
         if (render::is_translucent(opaque.surfaces[i])) {
-            surfaces.push_back(i);
-            opacities.push_back(opaque.surfaces[i].opacity);
+            if (opaque.surfaces[i].opacity > 0) {
+                surfaces.push_back(i);
+                opacities.push_back(opaque.surfaces[i].opacity);
+            }
             leave_out(opaque, i);
         }
-    const bool some_opaque = surfaces.size() < count;
+    const bool some_opaque = interaction::any_is(picture.isosurfaces, false);
     if (has_several_samples(gl_)) // all layers, sorted, or a share of the quads
         return draw(cells.appearance);
     if (some_opaque)
         draw(opaque);
+    if (surfaces.empty())
+        return;
     layers_.draw(
         views, opacities,
         [&](std::size_t layer) {

@@ -345,8 +345,9 @@ Scene::CornerWords Scene::words_in_corners(const render::View& view, const Pictu
     const float share = picture.layout.text;
     CornerWords words;
     if (picture.legend)
-        words.legend = legend_quads({picture.isosurfaces, info_.value_unit, picture.scale, overlay},
-                                    text_pass_, view.size, share);
+        words.legend = legend_quads(
+            {picture.isosurfaces, info_.value_unit, picture.scale, overlay, picture.values.array},
+            text_pass_, view.size, share);
     if (picture.orientation)
         words.orientation =
             orientation_in(view, picture.room_from_physical, info_, text_pass_, overlay, share);
@@ -382,8 +383,12 @@ void Scene::draw_before_cells(std::span<const render::View> views, const Picture
         std::vector<render::ScreenQuad> quads;
         for (const render::Label& label : labels)
             text_pass_.set(label, text_height(view.size, picture.layout.text), quads);
-        text_pass_.draw(view, placement.room_from_index, quads, render::TextPass::Depth::tested,
-                        views.size() == 1);
+        // A title that found no room beside the box stands before cells. Two eyes see words no
+        // nearer than what covers their place.
+        const bool flat = views.size() == 1;
+        text_pass_.draw(view, placement.room_from_index, quads,
+                        flat ? render::TextPass::Depth::none : render::TextPass::Depth::tested,
+                        flat);
     }
 }
 

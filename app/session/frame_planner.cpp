@@ -24,7 +24,7 @@ FramePlanner::FramePlanner(const Config& config, const Outputs& outputs, FrameLo
 /// Learns the draw costs of the slowest process, as all draw with the same footprint.
 void FramePlanner::learn_costs(const Frame& frame) {
     quality_.learn(frame.sharing.samples(quality_.collect(log_)));
-    quality_.charge(frame.sharing.largest(quality_.view()));
+    quality_.charge(frame.sharing.largest(quality_.view()), frame.state.isosurfaces);
 }
 
 /// Whether a picture at rest differs from the one that is shown in nothing but more detail, and may

@@ -35,13 +35,16 @@ ShownArrays::ShownArrays(const Config& config, std::shared_ptr<const index::Inde
       first_surfaces_{home.isosurfaces} {
     for (std::size_t number = 0; number < file_->arrays(); ++number) {
         const index::IndexFile& array = file_->array(number);
-        names_.push_back(array.info().array);
-        notes_.push_back(
-            range_text(array.stats().low, array.stats().high, array.info().value_unit));
-        lines_.push_back({array.info().array,
-                          grid_words(array.info()),
-                          array.info().value_unit,
-                          range_text(array.stats().low, array.stats().high),
+        const index::SeriesInfo& info = array.info();
+        const index::IndexStats& stats = array.stats();
+        const std::string share = missing_text(stats.nan_values, info);
+        const std::string missing = share.empty() ? "" : fmt::format(", {} missing", share);
+        names_.push_back(info.array);
+        notes_.push_back(range_text(stats.low, stats.high, info.value_unit) + missing);
+        lines_.push_back({info.array,
+                          grid_words(info),
+                          info.value_unit,
+                          range_text(stats.low, stats.high) + missing,
                           {}});
         if (number > 0)
             first_surfaces_.push_back(

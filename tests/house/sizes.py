@@ -17,7 +17,7 @@ def read(path):
     return (ROOT / path).read_text(encoding="utf-8")
 
 
-FILES = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for floor in FLOORS
+FILES = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8", errors="replace") for floor in FLOORS
          for path in sorted((ROOT / floor).rglob("*")) if path.is_file() and "__pycache__" not in path.parts}
 SOURCES = {path: text for path, text in FILES.items() if path.endswith((".h", ".cpp"))}
 GUIDE = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in (ROOT / "docs/guide").glob("*.md")}

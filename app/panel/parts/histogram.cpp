@@ -181,6 +181,23 @@ void lines_behind(const Plot& plot, const PanelModel& model) {
 
 } // namespace
 
+std::vector<std::uint64_t> column_counts(const PanelModel& model) {
+    const std::vector<std::uint64_t>& bins = model.stats.histogram;
+    const double between = (model.stats.high - model.stats.low) / model.info.scaling.slope;
+    const auto bin_count = static_cast<double>(bins.size());
+    if (model.info.type >= index::ValueType::f32 || !(std::abs(between) < bin_count))
+        return bins;
+    const double wide = bin_count / std::max(1.0, std::round(std::abs(between)));
+    std::vector<std::uint64_t> counts;
+    for (std::size_t bin = 0; bin + 1 < bins.size(); ++bin) {
+        const double number = std::ceil((static_cast<double>(bin) + 1) / wide) - 1;
+        counts.push_back(bins[static_cast<std::size_t>(number * wide)]);
+    }
+    if (!bins.empty()) // of the highest number alone
+        counts.push_back(bins.back());
+    return counts;
+}
+
 ImU32 line_color(const interaction::Isosurface& surface) {
     const glm::vec3& color = surface.color;
     return ImGui::ColorConvertFloat4ToU32({color.x, color.y, color.z, 1.0f});
@@ -207,7 +224,7 @@ void histogram(const PanelModel& model, Commands& commands) {
         ImGui::SetItemUsingMouseWheel(); // the column does not scroll then
         zoom.turn(ImGui::GetIO().MouseWheel, std::clamp((pointed - corner.x) / width, 0.0f, 1.0f));
     }
-    columns(plot, zoom, model.stats.histogram, *logarithmic);
+    columns(plot, zoom, column_counts(model), *logarithmic);
     lines_behind(plot, model);
     const auto& surfaces = model.asked.isosurfaces;
     for (std::uint32_t i = 0; i < surfaces.size(); ++i)

@@ -58,6 +58,10 @@ void data_section(const PanelModel& model, PanelPages& pages, Commands& commands
     const index::SeriesInfo& info = model.info;
     array_row(model, pages, commands);
     text_row("values", range_text(model.stats.low, model.stats.high, info.value_unit));
+    if (const std::string missing = missing_text(model.stats.nan_values, info); !missing.empty()) {
+        text_row("missing", missing + ": holes there");
+        tip("values that are missing (NaN), in all steps: a surface has a hole there");
+    }
     const glm::dvec3 size = physical_size(info.grid);
     text_row("size", fmt::format("{:.5g} x {:.5g} x {:.5g}{}", size.x, size.y, size.z,
                                  with_space(info.length_unit)));

@@ -168,6 +168,10 @@ void made_line(const interaction::ToolRow& tool, const PanelModel& model, Comman
     ImGui::TextColored(color_of(Ink::dim), "%s", tool.line(model.asked).c_str());
     if (!tool.made(model.asked))
         return;
+    for (const interaction::ToolLabel& label : tool.draw(model.asked, model.data).labels) {
+        ImGui::SameLine();
+        text(label.text);
+    }
     ImGui::SameLine();
     if (icon_button(fmt::format("no {}", tool.makes).c_str(), Icon::remove,
                     fmt::format("remove the {} (Delete)", tool.makes).c_str(), false,

@@ -69,7 +69,7 @@ class SimulatedSession {
             shown_ = now.report.asked;
         now.report.shown = shown_;
         take_times();
-        quality_.charge({1, 2e5});
+        quality_.charge({1, 2e5}, state_.isosurfaces);
         render::FootprintSet possible = available_;
         if (has_meshes_)
             possible.add(render::Footprint::mesh);

@@ -2,20 +2,26 @@
 #include "app/config/config.h"
 #include "app/panel/panel.h"
 #include "app/panel/panel_statistics.h"
+#include "app/panel/parts/histogram.h"
 #include "app/panel/parts/surfaces_section.h"
 #include "app/panel/parts/theme.h"
 #include "app/panel/parts/written_pictures.h"
 #include "app/text.h"
+#include "tests/app/panel/drawn_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -111,6 +117,61 @@ TEST(RangeText, HasAsManyDigitsAsTellItsEndsApart) {
         EXPECT_EQ(range_text(row.low, row.high, "K"), row.words);
     const double largest = std::numeric_limits<double>::max();
     EXPECT_EQ(range_text(-largest, largest), "-1.79769e+308 to 1.79769e+308");
+}
+
+TEST_F(PanelTest, SaysHowManyValuesAreMissing) {
+    info_.grid.vertices = {10, 10, 50}; // 10,000 values in two steps
+    for (const auto& [missing, words] : {std::pair{0u, ""},
+                                         {1u, "less than 0.1 %"},
+                                         {9u, "less than 0.1 %"},
+                                         {10u, "0.1 %"},
+                                         {375u, "3.8 %"},
+                                         {9'999u, "99.9 %"},
+                                         {10'000u, "all"}}) {
+        EXPECT_EQ(missing_text(missing, info_), words);
+        stats_.nan_values = missing;
+        press(5, 5);
+        EXPECT_EQ(place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(),
+                                std::string(words) + ": holes there")
+                      .has_value(),
+                  missing > 0)
+            << words;
+    }
+}
+
+TEST_F(PanelTest, ColumnsOfWholeNumbersLeaveNoGaps) {
+    const auto counts = [&](index::ValueType type, double low, double high,
+                            const std::vector<std::pair<std::size_t, std::uint64_t>>& bins) {
+        info_.type = type;
+        stats_.low = low;
+        stats_.high = high;
+        stats_.histogram.assign(256, 0);
+        for (const auto& [bin, count] : bins)
+            stats_.histogram[bin] = count;
+        return column_counts({.info = info_,
+                              .stats = stats_,
+                              .asked = asked_,
+                              .frame = frame_,
+                              .controls = controls_});
+    };
+    // 5, 6 and 7, of which no 6 is there; then one is.
+    std::vector<std::uint64_t> wanted(256, 0);
+    std::fill_n(wanted.begin(), 128, 30);
+    wanted.back() = 7;
+    EXPECT_EQ(counts(index::ValueType::u8, 5, 7, {{0, 30}, {255, 7}}), wanted);
+    std::fill_n(wanted.begin() + 128, 127, 4);
+    EXPECT_EQ(counts(index::ValueType::u8, 5, 7, {{0, 30}, {128, 4}, {255, 7}}), wanted);
+    info_.scaling.slope = -0.5; // the same three numbers
+    EXPECT_EQ(counts(index::ValueType::i16, 5, 6, {{0, 30}, {128, 4}, {255, 7}}), wanted);
+    info_.scaling.slope = 1;
+    // 253 numbers, one in each of 253 bins of 256.
+    std::vector<std::pair<std::size_t, std::uint64_t>> all;
+    for (std::size_t i = 0; i < 252; ++i)
+        all.emplace_back(i * 256 / 252, 1);
+    all.emplace_back(255, 1);
+    EXPECT_EQ(counts(index::ValueType::u8, 0, 252, all), std::vector<std::uint64_t>(256, 1));
+    EXPECT_EQ(counts(index::ValueType::f32, 0, 252, all), stats_.histogram) << "gaps are real";
+    EXPECT_EQ(counts(index::ValueType::u16, 0, 300, all), stats_.histogram) << "more than bins";
 }
 
 TEST_F(PanelTest, MeasurementsAreSaidInWords) {

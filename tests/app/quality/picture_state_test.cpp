@@ -12,6 +12,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -115,7 +116,7 @@ TEST(PictureState, AutoDrawsCellsThatHaveNoSurfaceWithoutSplats) {
             report.cells = 50'000;
             report.asked = {index::Instant(0), {1.0}};
             report.shown = report.asked;
-            quality.charge({1, 2e5});
+            quality.charge({1, 2e5}, state.isosurfaces);
             const auto coarse = render::FootprintSet::up_to(render::Footprint::gaussian);
             const FramePlan plan =
                 quality.choose(state, moves, Choosing::with_parts, coarse, coarse, report);
@@ -130,6 +131,51 @@ TEST(PictureState, AutoDrawsCellsThatHaveNoSurfaceWithoutSplats) {
         }
         EXPECT_GT(rests, 100);
         EXPECT_EQ(splats > 0, mode == interaction::QualityMode::paper);
+    }
+}
+
+TEST(PictureState, PassesOverTranslucentSurfacesCountBeforeAnyOfThemIsMeasured) {
+    const render::Gl gl = gl_without_clock();
+    // Opacities of the surfaces, and the passes that they take: a hidden surface takes none.
+    const std::vector<std::pair<std::vector<float>, double>> all{{{1}, 1},
+                                                                 {{0.5f}, 1},
+                                                                 {{1, 1, 1}, 1},
+                                                                 {{1, 0.5f}, 2},
+                                                                 {{0.3f, 0.5f, 0.7f}, 3},
+                                                                 {{0, 1}, 1},
+                                                                 {{1, 0, 0.5f, 0.5f, 1}, 3}};
+    for (const auto& [opacities, passes] : all) {
+        FrameQuality quality(gl, Config(), 60);
+        FrameLog log;
+        ExplorerState state;
+        const auto frame = [&](int number, double cells, double passes_now) {
+            FrameReport report;
+            report.time = interaction::Seconds(number / 60.0);
+            report.pace = interaction::Pace::moving;
+            report.cells = static_cast<std::uint64_t>(cells);
+            quality.learn(quality.collect(log));
+            quality.charge({1, 2e5}, state.isosurfaces);
+            const auto quads = render::FootprintSet::up_to(render::Footprint::quad);
+            quality.choose(state, true, Choosing::with_parts, quads, quads, report);
+            quality.begin(static_cast<std::uint64_t>(number));
+            quality.end(report, {1, 2e5}, Milliseconds(1 + cells * passes_now * 1e-4));
+            return report;
+        };
+        state.isosurfaces.assign(1, {});
+        int number = 0;
+        for (; number < 200; ++number)
+            frame(number, 1e4 * (number % 5), 1);
+        state.isosurfaces.clear();
+        for (const float opacity : opacities)
+            state.isosurfaces.push_back({.opacity = opacity});
+        const FrameReport first = frame(number, 3e4, passes);
+        ASSERT_TRUE(first.expected);
+        EXPECT_NEAR(first.expected->count(), 1 + 3 * passes, 0.1 * (1 + 3 * passes));
+        // What these frames take is charged to as much work as they did.
+        for (int i = 1; i < 50; ++i)
+            frame(number + i, 1e4 * (i % 5), passes);
+        state.isosurfaces.assign(1, {});
+        EXPECT_NEAR(frame(number + 50, 3e4, 1).expected->count(), 4, 0.4);
     }
 }
 

@@ -79,6 +79,23 @@ TEST_P(LegendTest, IsNotNeededForOneSurfaceAndListsSeveral) {
     for (const auto& surface : two)
         EXPECT_TRUE(std::ranges::any_of(
             quads, [&](const ScreenQuad& quad) { return glm::vec3(quad.color) == surface.color; }));
+    auto hidden = two;
+    hidden.back().opacity = 0;
+    EXPECT_TRUE(legend_quads({hidden, "K", {}}, text_, {1000, 1000}).empty());
+}
+
+TEST_P(LegendTest, SaysWhichArrayTheIsovaluesAreOfWhereColorsAreAnothers) {
+    const std::vector<interaction::Isosurface> two{{1, {1, 0, 0}, 1}, {2, {0, 1, 0}, 1}};
+    Legend legend = of_temperature();
+    legend.surfaces = two;
+    const auto without = legend_quads(legend, text_, {1000, 1000});
+    legend.array = "pressure";
+    const auto with = legend_quads(legend, text_, {1000, 1000});
+    // Each letter has its halo below it.
+    EXPECT_EQ(with.size() - without.size(), 2 * legend.array.size());
+    legend.scale.reset(); // patches of color tell then
+    EXPECT_EQ(legend_quads(legend, text_, {1000, 1000}).size(),
+              legend_quads({two, "K", {}}, text_, {1000, 1000}).size());
 }
 
 TEST(ColorScales, GoByLogarithmsWhereValuesAreAboveZero) {

@@ -12,6 +12,7 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -23,6 +24,9 @@ namespace isochron::interaction {
 struct DataFrame {
     glm::dmat4 physical_from_box{1.0}; ///< from the unit cube
     std::string unit;                  ///< unit of lengths; may be empty
+    glm::dvec3 cells{1.0};             ///< number of cells along each axis
+    /// Distances of the vertices along an axis from the first, where they are uneven; null: even.
+    std::array<const std::vector<double>*, 3> distances{};
 
     glm::dvec3 at(const glm::dvec3& in_box) const {
         return glm::dvec3(physical_from_box * glm::dvec4(in_box, 1.0));

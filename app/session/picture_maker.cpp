@@ -154,6 +154,8 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
         .cells = sets_.shown(),
         .isosurfaces = state.isosurfaces,
         .values = shown_values(state),
+        .surfaces = !state.slices.hides_surfaces(),
+        .slices = shown_slices(slices_.shown(), state, frame.file),
         .look = state.look,
         .scale = shown_scale(state),
         .bounding_box = state.bounding_box,

@@ -131,6 +131,8 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"value"}, r.value...);
     visit(Field{.key = "fraction", .low = 0, .high = kMostFraction, .may_lack = true},
           r.instant.fraction...);
+    visit(Field{.key = "array", .most = kLongestArrayName, .may_lack = true}, r.array...);
+    visit(Field{.key = "unit", .most = kLongestArrayName, .may_lack = true}, r.unit...);
 }
 
 template <class Visit, Of<HapticPulse>... Records>
@@ -180,7 +182,6 @@ template <class Visit, Of<NamedMark>... Records>
 void each_field(Visit&& visit, Records&... r) {
     visit(Field{"name"}, r.name...);
     each_field(visit, r.point...);
-    visit(Field{.key = "array", .most = kLongestArrayName, .may_lack = true}, r.array...);
 }
 
 template <class Visit, Of<Ruler>... Records>

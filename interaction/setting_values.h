@@ -248,6 +248,8 @@ struct MarkedPoint {
     glm::dvec3 position{0.0}; ///< physical space
     Instant instant;          ///< shown when it was picked
     double value = 0;         ///< value of the data there
+    /// Array whose value it is, and its unit; empty: that of the surfaces.
+    std::string array = {}, unit = {};
     bool operator==(const MarkedPoint&) const = default;
 };
 /// The one place that is marked, or none.
@@ -260,7 +262,6 @@ struct Mark {
 struct NamedMark {
     std::string name;
     MarkedPoint point;
-    std::string array; ///< whose value it is
     bool operator==(const NamedMark&) const = default;
 };
 inline constexpr std::size_t kMostMarks = 64;

@@ -148,7 +148,9 @@ std::vector<Callout> callouts_of(const Picture& picture,
     if (pointed && pointed->surface < picture.isosurfaces.size())
         callouts.push_back({in_room(pointed->point.position),
                             pointed_lines(*pointed, picture.isosurfaces.size(), info),
-                            readable(picture.isosurfaces[pointed->surface].color, overlay),
+                            pointed->on_slice
+                                ? overlay.text
+                                : readable(picture.isosurfaces[pointed->surface].color, overlay),
                             CalloutSign::dot});
     return callouts;
 }

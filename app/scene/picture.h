@@ -65,7 +65,7 @@ struct Picture {
     interaction::Mark mark;
     std::optional<interaction::Pointed> pointed;
     interaction::ToolDrawing tools;
-    interaction::ClipPlane clip;
+    std::vector<interaction::ClipPlane> cuts; ///< away what is beyond any of them
     Guides guides;
     render::Veil veil;
     interaction::Similarity room_from_physical;

@@ -68,14 +68,16 @@ glm::vec3 in_room(const Picture& picture, const glm::dvec3& at) {
     return glm::vec3(interaction::transform(picture.room_from_physical, at));
 }
 
-/// The plane that cuts the surfaces, in the room.
-std::optional<glm::vec4> cut_of(const Picture& picture) {
-    if (!picture.clip.shown)
-        return std::nullopt;
-    const glm::dvec3 normal =
-        interaction::normal_in_room(picture.room_from_physical, picture.clip.normal);
-    const glm::dvec3 at = interaction::transform(picture.room_from_physical, picture.clip.point);
-    return glm::vec4(glm::dvec4(normal, -glm::dot(normal, at)));
+/// The planes that cut the surfaces, in the room.
+std::vector<glm::vec4> cuts_of(const Picture& picture) {
+    std::vector<glm::vec4> planes;
+    for (const interaction::ClipPlane& cut : picture.cuts) {
+        const glm::dvec3 normal =
+            interaction::normal_in_room(picture.room_from_physical, cut.normal);
+        const glm::dvec3 at = interaction::transform(picture.room_from_physical, cut.point);
+        planes.emplace_back(glm::dvec4(normal, -glm::dot(normal, at)));
+    }
+    return planes;
 }
 
 bool hidden_by_panel(const Picture& picture, const render::View& view, const glm::vec3& at) {
@@ -160,7 +162,7 @@ render::CellAppearance Scene::appearance_of(const Picture& picture) {
     if (picture.scale)
         appearance.values = value_colors(*picture.scale, map_of(*picture.scale));
     set_look(appearance, configured_, picture.look);
-    appearance.cut = cut_of(picture);
+    appearance.cuts = cuts_of(picture);
     appearance.mesh_level = picture.mesh_level;
     return appearance;
 }

@@ -6,6 +6,7 @@
 
 #include <glm/matrix.hpp>
 
+#include <limits>
 #include <utility>
 
 namespace isochron::app {
@@ -45,11 +46,19 @@ Picker::Picker(std::shared_ptr<const index::IndexFile> file)
           return Read{std::nullopt, why};
       }) {}
 
-std::optional<Pointed> Picker::hit_by(const Pose& pose, const ExplorerState& state,
-                                      const index::ExtractionPtr& shown) const {
-    if (!shown)
+void Picker::set_slices(const std::vector<index::SliceValuesPtr>& slices,
+                        const index::SeriesInfo& info) {
+    slices_ = slices;
+    const bool other = info.array != file_->info().array;
+    sliced_ = other ? info.array : std::string();
+    sliced_unit_ = other ? info.value_unit : std::string();
+}
+
+std::optional<Pointed> Picker::surface_hit(const index::Ray& ray, const ExplorerState& state,
+                                           const index::ExtractionPtr& shown) const {
+    if (!shown || state.slices.hides_surfaces())
         return std::nullopt;
-    const auto seen = uncut(ray_of(pose, state), state.clip);
+    const auto seen = uncut(ray, state.clip);
     if (!seen)
         return std::nullopt;
     const auto hit = index::first_hit(*shown, file_->info().grid, *seen,
@@ -58,6 +67,36 @@ std::optional<Pointed> Picker::hit_by(const Pose& pose, const ExplorerState& sta
         return std::nullopt;
     return Pointed{{hit->at, shown->query.instant, shown->query.isovalues[hit->surface]},
                    hit->surface};
+}
+
+std::optional<Pointed> Picker::slice_hit(const index::Ray& ray) const {
+    std::optional<Pointed> first;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const index::SliceValuesPtr& slice : slices_) {
+        const double rate = glm::dot(ray.direction, slice->query.normal);
+        const double along = glm::dot(slice->query.point - ray.origin, slice->query.normal) / rate;
+        if (rate == 0 || !(along > 0 && along < nearest))
+            continue;
+        const glm::dvec3 at = ray.origin + along * ray.direction;
+        const auto value = index::value_on(*slice, file_->info().grid, at);
+        if (!value)
+            continue;
+        nearest = along;
+        first = Pointed{{at, slice->query.instant, *value, sliced_, sliced_unit_}, 0, true};
+    }
+    return first;
+}
+
+std::optional<Pointed> Picker::hit_by(const Pose& pose, const ExplorerState& state,
+                                      const index::ExtractionPtr& shown) const {
+    const index::Ray ray = ray_of(pose, state);
+    const auto surface = surface_hit(ray, state, shown), slice = slice_hit(ray);
+    if (!surface || !slice)
+        return surface ? surface : slice;
+    return glm::distance(surface->point.position, ray.origin) <
+                   glm::distance(slice->point.position, ray.origin)
+               ? surface
+               : slice;
 }
 
 std::optional<Pointed> Picker::pointed(const InputState& input, bool aims,

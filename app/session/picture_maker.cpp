@@ -7,6 +7,7 @@
 #include "interaction/input/device_reading.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/navigation/navigator.h"
+#include "interaction/tools/clip_box.h"
 #include "interaction/tools/tool_table.h"
 
 #include <glm/geometric.hpp>
@@ -144,7 +145,7 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
         .mark = state.mark,
         .pointed = within.pointed,
         .tools = drawing_of(state, data_frame(frame.file.info())),
-        .clip = state.clip,
+        .cuts = cutting_planes(state, data_frame(frame.file.info())),
         .guides = {state.grid, interaction::teleport_target(seen)},
         .veil = {static_cast<float>(frame.report.comfort.fade),
                  static_cast<float>(frame.report.comfort.vignette)},

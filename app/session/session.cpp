@@ -151,6 +151,7 @@ PanelModel Session::panel_model(const FrameReport& report) const {
         interaction::Controls::documentation();
     const index::IndexFile& array = arrays_.shown(state_);
     const auto scale = pictures_.scale(state_);
+    const std::size_t sliced = slice_array(state_, *arrays_.file());
     return {.info = array.info(),
             .stats = array.stats(),
             .data = data_frame(arrays_.file()->info()),
@@ -159,6 +160,8 @@ PanelModel Session::panel_model(const FrameReport& report) const {
             .gaps = times_.gaps.steps(),
             .arrays = arrays_.in_panel(state_),
             .colors = {.range = scale ? scale->range : std::array{0.0, 0.0},
+                       .slices = slice_scale(state_, *arrays_.file(), sliced).range,
+                       .sliced = sliced,
                        .own_maps = config_.color_maps},
             .work = {.frames = log_.speed(),
                      .reading = reading(),
@@ -442,6 +445,10 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     supply_.request(frame);
     supply_.take_newest(frame);
     slices_.update(frame);
+    if (const auto& slices = slices_.shown(); !slices.empty())
+        picker_.set_slices(slices, arrays_.file()->array(slices.front()->query.array).info());
+    else
+        picker_.set_slices({}, {});
     show_messages(supply_.take_messages());
     show_messages(slices_.take_messages());
     panel_.lay_out_room(state_, facts, report.time);

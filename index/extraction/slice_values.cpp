@@ -125,19 +125,18 @@ std::vector<glm::dvec3> outline_of(const Grid& grid, const GridPlane& plane) {
 /// Copies the parts of runs that lie in a block of stored values.
 class Filling {
   public:
-    Filling(SliceValues& slice, const Runs& runs, const StepView& step)
-        : slice_(slice), runs_(runs), type_(step.type()), scaling_(step.scaling()) {}
+    Filling(SliceValues& slice, const Runs& runs) : slice_(slice), runs_(runs) {}
 
     /// @param values [z][y][x], x fastest @param low its first vertex
     void copy(std::span<const std::byte> values, const Vertex& low, const Vertex& size) const {
-        visit_value_type(type_, [&]<class T>(std::type_identity<T>) {
+        visit_value_type(slice_.type, [&]<class T>(std::type_identity<T>) {
             copy_of(reinterpret_cast<const T*>(values.data()), low, size);
         });
     }
 
   private:
     float share(double stored) const {
-        const double value = scaling_(stored);
+        const double value = slice_.scaling(stored);
         if (!std::isfinite(value))
             return kNoShare;
         const auto [low, high] = slice_.whole;
@@ -160,17 +159,19 @@ class Filling {
                     continue;
                 const T* value = values + i1 * stride[axis1] + i2 * stride[axis2] +
                                  (from - low[axis]) * stride[axis];
-                float* into =
-                    &slice_.shares[slice_.columns[column].offset + from - runs_.first[column]];
-                for (std::uint32_t i = from; i <= to; ++i, value += stride[axis])
+                const std::size_t place =
+                    slice_.columns[column].offset + from - runs_.first[column];
+                float* into = &slice_.shares[place];
+                T* stored = reinterpret_cast<T*>(slice_.stored.data()) + place;
+                for (std::uint32_t i = from; i <= to; ++i, value += stride[axis]) {
                     *into++ = share(static_cast<double>(*value));
+                    *stored++ = *value;
+                }
             }
     }
 
     SliceValues& slice_;
     const Runs& runs_;
-    ValueType type_;
-    Scaling scaling_;
 };
 
 /// The chunks that hold vertices of the runs: by layer, their places, ascending.
@@ -216,6 +217,11 @@ SliceValues slice_values(const IndexFile& array, const SliceQuery& query,
                       .outline = outline_of(grid, plane)};
     if (slice.outline.empty())
         return slice;
+    // Small steps are read as a whole, of others only the chunks that the plane cuts.
+    const StepView step =
+        array.referral() ? step_of(array, query.instant) : part_of_step(array, query.instant);
+    slice.type = step.type();
+    slice.scaling = step.scaling();
     const Runs runs(grid, plane);
     slice.columns.resize(runs.first.size());
     std::size_t count = 0;
@@ -224,15 +230,14 @@ SliceValues slice_values(const IndexFile& array, const SliceQuery& query,
         if (runs.first[column] <= runs.last[column])
             count += runs.last[column] - runs.first[column] + 1;
     }
-    if (slice.columns.size() * sizeof(SliceValues::Column) + count * sizeof(float) >
+    if (slice.columns.size() * sizeof(SliceValues::Column) +
+            count * (sizeof(float) + size_of(slice.type)) >
         kMostSliceBytes)
         throw Error(fmt::format("{}: a slice of {} values, expected at most 1 GiB of them",
                                 array.name(), count));
     slice.shares.resize(count, kNoShare);
-    // Small steps are read as a whole, of others only the chunks that the plane cuts.
-    const StepView step =
-        array.referral() ? step_of(array, query.instant) : part_of_step(array, query.instant);
-    const Filling filling(slice, runs, step);
+    slice.stored.resize(count * size_of(slice.type));
+    const Filling filling(slice, runs);
     if (!step.by_chunks()) {
         const LoadedStep& whole = step.whole(stop);
         filling.copy(whole.values.step_bytes(step.at().step), {0, 0, 0}, grid.vertices);

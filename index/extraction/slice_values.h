@@ -41,11 +41,15 @@ struct SliceValues {
     std::vector<Column> columns;
     /// Runs of values as shares of `whole`, 0 to 1; kNoShare where a value is missing.
     std::vector<float> shares;
+    /// The values themselves in their type, as they are stored.
+    std::vector<std::byte> stored;
+    ValueType type{};
+    Scaling scaling;
     /// Corners of the plane within the data's box, around it, in even coordinates; empty outside.
     std::vector<glm::dvec3> outline;
 
     std::size_t bytes() const {
-        return columns.size() * sizeof(Column) + shares.size() * sizeof(float);
+        return columns.size() * sizeof(Column) + shares.size() * sizeof(float) + stored.size();
     }
 };
 using SliceValuesPtr = std::shared_ptr<const SliceValues>;
@@ -61,7 +65,7 @@ inline constexpr std::size_t kMostSliceBytes = std::size_t{1} << 30;
 SliceValues slice_values(const IndexFile& array, const SliceQuery& query,
                          const std::stop_token& stop = {});
 
-/// The value at a place on the plane, to within 1e-7 of the array's range.
+/// The value at a place on the plane, as `value_at` has it.
 /// @param at physical space, within half a cell of the plane
 /// @return nothing outside the grid or away from the plane, and in cells that miss a value
 std::optional<double> value_on(const SliceValues& slice, const Grid& grid, const glm::dvec3& at);

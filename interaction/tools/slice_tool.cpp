@@ -57,21 +57,6 @@ std::optional<std::uint32_t> slice_met(const Slices& slices, const Pose& ray,
     return first;
 }
 
-/// Index along an axis of a place at a distance from the first vertex, as a share of the whole.
-double index_along(int axis, double share, const DataFrame& data) {
-    const std::vector<double>* at = data.distances[static_cast<std::size_t>(axis)];
-    if (!at)
-        return share * data.cells[axis];
-    const double distance = share * at->back();
-    const auto above = std::upper_bound(at->begin() + 1, at->end() - 1, distance);
-    const auto i = above - at->begin() - 1;
-    return static_cast<double>(i) + (distance - above[-1]) / (above[0] - above[-1]);
-}
-double share_along(int axis, double vertex, const DataFrame& data) {
-    const std::vector<double>* at = data.distances[static_cast<std::size_t>(axis)];
-    return at ? (*at)[static_cast<std::size_t>(vertex)] / at->back() : vertex / data.cells[axis];
-}
-
 } // namespace
 
 ToolOutcome SliceTool::update(std::span<const ToolHand> hands, const ToolContext& now) {
@@ -147,9 +132,9 @@ Slices stepped(Slices slices, bool forward, const DataFrame& data) {
     if (const auto axis = axis_across(plane.normal, data)) {
         const bool up = forward == (glm::dot(plane.normal, across(*axis, data)) > 0);
         glm::dvec3 in_box = data.in_box(plane.point);
-        const double at = index_along(*axis, in_box[*axis], data);
+        const double at = data.index_along(*axis, in_box[*axis]);
         const double next = up ? std::floor(at + kOnVertex) + 1 : std::ceil(at - kOnVertex) - 1;
-        in_box[*axis] = share_along(*axis, std::clamp(next, 0.0, data.cells[*axis]), data);
+        in_box[*axis] = data.share_along(*axis, std::clamp(next, 0.0, data.cells[*axis]));
         moved.point = data.at(in_box);
     } else {
         double most = 0;

@@ -7,6 +7,7 @@
 #include "app/panel/parts/export_section.h"
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/rows.h"
+#include "app/panel/parts/slice_lines.h"
 #include "app/panel/parts/theme.h"
 #include "app/panel/parts/written_pictures.h"
 #include "app/scene/mark.h"
@@ -191,10 +192,12 @@ void mark_line(const PanelModel& model, float width, Commands& commands) {
     text(words);
     if (words != all)
         tip(all.c_str());
-    ImGui::SameLine();
-    if (ImGui::Button(kHere))
-        commands.isovalue = point.value;
-    tip("set the isovalue to the value at the mark");
+    if (point.array.empty()) {
+        ImGui::SameLine();
+        if (ImGui::Button(kHere))
+            commands.isovalue = point.value;
+        tip("set the isovalue to the value at the mark");
+    }
     ImGui::SameLine();
     if (icon_button("no mark", Icon::remove, "remove the mark (Delete)", false,
                     ImGui::GetFrameHeight()))
@@ -223,6 +226,8 @@ void tool_strip(const PanelModel& model, float width, Commands& commands) {
             continue;
         if (tool.kind == ToolKind::clip)
             clip_lines(model, commands);
+        else if (tool.kind == ToolKind::slice)
+            slice_lines(model, commands);
         else if (tool.line)
             made_line(tool, model, commands);
     }

@@ -47,11 +47,13 @@ uint hash_of(uvec3 cell) {
 // @return uniformly distributed in [0, 1)
 float evenly(uint hash) { return float(hash >> 8) / 16777216.0; }
 
-// The share that remains, 0 to 1, near the viewer (fading) and beyond the cutting plane (0).
+// The share that remains, 0 to 1, near the viewer (fading) and beyond a cutting plane (0).
 // @param at eye space
 float near_share(vec3 at) {
-    float whole = dot(EYE(cut), vec4(at, 1.0)) > 0.0 ? 0.0 : 1.0;
-    return whole * clamp((distance(at, EYE(between_eyes).xyz) - near_fade.x) * near_fade.y, 0.0, 1.0);
+    for (int i = 0; i < cut_count; ++i)
+        if (dot(EYE(cuts[i]), vec4(at, 1.0)) > 0.0)
+            return 0.0;
+    return clamp((distance(at, EYE(between_eyes).xyz) - near_fade.x) * near_fade.y, 0.0, 1.0);
 }
 
 // Opaque surfaces fade by leaving out a share of their grains, which are much smaller than cells.

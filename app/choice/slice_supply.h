@@ -1,7 +1,4 @@
 // The values of the slices that a session shows, read beside the frames.
-//
-//     slices.update(frame);            // every frame; asks, and takes what has been read
-//     picture.slices = shown_slices(slices.shown(), state);
 #pragma once
 
 #include "app/choice/frame.h"

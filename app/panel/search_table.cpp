@@ -14,8 +14,11 @@
 #include "interaction/navigation/axis_views.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/step_track.h"
+#include "interaction/tools/clip_box.h"
+#include "interaction/tools/slice_tool.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -209,6 +212,8 @@ constexpr OtherNames kOtherNames[] = {
     {"clip_tool", "clipping plane, cut plane, cross section, section, crop, cut, cutting plane, "
                   "cutaway, clip box, region of interest, roi, subvolume, "
                   "orthoslice, plane, split, knife, half, inside"},
+    {"clip_box", "clip box, box, region of interest, roi, subvolume, crop, crop box, bounding box"},
+    {"remove_box", "no box, remove crop, show whole"},
     {"snap_clip",
      "slice, slice z, axis aligned clip, cut along axis, crop, orthogonal slice, clip x "
      "y z, cross section"},
@@ -701,14 +706,34 @@ void add_tools(Lines& lines) {
            interaction::Ruler{});
     remove("remove_clip", "remove the clip plane", asked.clip.shown, &Commands::clip,
            interaction::ClipPlane{});
+    if (asked.clip_box.shown)
+        remove("remove_box", "remove the clip box", true, &Commands::clip_box,
+               interaction::ClipBox{});
+    else
+        lines.value("clip_box", "clip box around the data", &Commands::clip_box,
+                    interaction::whole_box(lines.model().data), asked.clip_box);
     remove("remove_slices", "remove the slices", asked.slices.shown(), &Commands::slices,
            interaction::Slices{});
     const interaction::Slices& slices = asked.slices;
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
-    for (int axis = 0; axis < 3; ++axis)
-        lines.value(fmt::format("slice={}", kAxes[static_cast<std::size_t>(axis)]),
-                    fmt::format("slice across {}", kAxes[static_cast<std::size_t>(axis)]),
-                    &Commands::slices, snapped(slices, axis, lines.model().data), slices);
+    for (int axis = 0; axis < 3; ++axis) {
+        const char* const name = kAxes[static_cast<std::size_t>(axis)];
+        const interaction::Slices across = snapped(slices, axis, lines.model().data);
+        Commands commands;
+        commands.slices = across;
+        lines
+            .add({.name = fmt::format("slice={}", name),
+                  .words = fmt::format("slice across {}", name),
+                  .commands = commands})
+            .with_number = [across, &unit = lines.model().info.length_unit](double number) {
+            interaction::Slices there = across;
+            interaction::Plane& plane = there.planes[there.picked];
+            plane.point += (number - glm::dot(plane.point, plane.normal)) * plane.normal;
+            NumberEffect effect{with_unit(number, unit), {}};
+            effect.commands.slices = there;
+            return effect;
+        };
+    }
 }
 
 Commands shown_at(const PanelModel& model, index::Instant at) {

@@ -20,6 +20,7 @@ bool hides_by_depth(const Picture& picture) {
 /// The picture without what is drawn over cells.
 Picture without_lines(Picture picture) {
     picture.mark = {};
+    picture.marks.clear();
     picture.pointed.reset();
     picture.tools = {};
     picture.guides = {};

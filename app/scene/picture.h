@@ -63,6 +63,7 @@ struct ShownSlice {
 struct Picture {
     Audience audience;
     interaction::Mark mark;
+    std::vector<interaction::NamedMark> marks;
     std::optional<interaction::Pointed> pointed;
     interaction::ToolDrawing tools;
     std::vector<interaction::ClipPlane> cuts; ///< away what is beyond any of them

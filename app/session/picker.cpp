@@ -1,12 +1,16 @@
 // Picking by rays, and reading of data.
 #include "app/session/picker.h"
 
+#include "app/config/first_placement.h"
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/value_in_index.h"
+#include "interaction/tools/clip_box.h"
 
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace isochron::app {
@@ -27,15 +31,17 @@ index::Ray ray_of(const Pose& pose, const ExplorerState& state) {
 
 constexpr double kOnPlane = 1e-9; ///< rounding error, relative to the distance from the origin
 
-/// The ray from where it leaves the side that is cut away; empty if it never does.
-std::optional<index::Ray> uncut(index::Ray ray, const ClipPlane& clip) {
-    const double start = clip.shown ? clip.beyond(ray.origin) : 0.0;
-    if (!(start > 0))
-        return ray;
-    const double rate = glm::dot(ray.direction, clip.normal);
-    if (!(rate < 0))
-        return std::nullopt;
-    ray.origin += start / -rate * ray.direction;
+/// The ray from where it leaves the sides that are cut away; empty if it never does.
+std::optional<index::Ray> uncut(index::Ray ray, std::span<const ClipPlane> cuts) {
+    double along = 0;
+    for (const ClipPlane& cut : cuts)
+        if (const double start = cut.beyond(ray.origin); start > 0) {
+            const double rate = glm::dot(ray.direction, cut.normal);
+            if (!(rate < 0))
+                return std::nullopt;
+            along = std::max(along, start / -rate);
+        }
+    ray.origin += along * ray.direction;
     return ray;
 }
 
@@ -58,12 +64,16 @@ std::optional<Pointed> Picker::surface_hit(const index::Ray& ray, const Explorer
                                            const index::ExtractionPtr& shown) const {
     if (!shown || state.slices.hides_surfaces())
         return std::nullopt;
-    const auto seen = uncut(ray, state.clip);
+    const auto cuts = interaction::cutting_planes(state, data_frame(file_->info()));
+    const auto seen = uncut(ray, cuts);
     if (!seen)
         return std::nullopt;
     const auto hit = index::first_hit(*shown, file_->info().grid, *seen,
                                       interaction::visible(state.isosurfaces));
-    if (!hit || (state.clip.shown && state.clip.beyond(hit->at) > kOnPlane * glm::length(hit->at)))
+    const auto is_beyond = [&](const ClipPlane& cut) {
+        return cut.beyond(hit->at) > kOnPlane * glm::length(hit->at);
+    };
+    if (!hit || std::ranges::any_of(cuts, is_beyond))
         return std::nullopt;
     return Pointed{{hit->at, shown->query.instant, shown->query.isovalues[hit->surface]},
                    hit->surface};

@@ -143,6 +143,7 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
                      .aids = within.wand || within.pointed,
                      .in_windows = in_windows(frame.report)},
         .mark = state.mark,
+        .marks = state.marks,
         .pointed = within.pointed,
         .tools = drawing_of(state, data_frame(frame.file.info())),
         .cuts = cutting_planes(state, data_frame(frame.file.info())),
@@ -238,6 +239,7 @@ Picture PictureMaker::kept(const Picture& picture,
                        (parts.scale_bar && on_screens_of_desk() && !picture.audience.panel);
     if (!parts.marks) {
         kept.mark = {};
+        kept.marks.clear();
         kept.tools = {};
     }
     if (parts.background != WrittenBackground::shown)

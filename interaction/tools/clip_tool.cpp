@@ -12,9 +12,32 @@ constexpr glm::vec4 kClipColor(1.0f, 0.62f, 0.32f, 0.95f);
 
 } // namespace
 
+/// The box, if a hand holds one of its faces; else nothing.
+std::optional<ClipBox> ClipTool::moved_box(std::span<const ToolHand> hands,
+                                           const ToolContext& now) {
+    const ClipBox& box = now.session.settings.clip_box;
+    bool held = false;
+    for (const ToolHand& hand : hands) {
+        if (hand.ray && hand.pressed && box.shown)
+            face_ = face_met(box, *hand.ray, now);
+        held = held || (hand.ray && hand.down);
+    }
+    if (!held || !box.shown)
+        face_.reset();
+    if (!face_)
+        return std::nullopt;
+    const Plane plane = plane_of(*face_, box, now.session.data);
+    return with_face(box, *face_, hold_.update(hands, plane, now), now.session.data);
+}
+
 ToolOutcome ClipTool::update(std::span<const ToolHand> hands, const ToolContext& now) {
     ToolOutcome outcome;
     const ClipPlane& clip = now.session.settings.clip;
+    if (const auto box = moved_box(hands, now)) {
+        if (*box != now.session.settings.clip_box)
+            outcome.commands.clip_box = box;
+        return outcome;
+    }
     if (clip.shown) {
         const Plane plane{clip.point, clip.normal};
         if (const Plane moved = hold_.update(hands, plane, now); moved != plane)
@@ -22,6 +45,8 @@ ToolOutcome ClipTool::update(std::span<const ToolHand> hands, const ToolContext&
         return outcome;
     }
     hold_.let_go();
+    if (now.session.settings.clip_box.shown)
+        return outcome; // a click on a face lays no plane
     for (const ToolHand& hand : hands) {
         if (!hand.ray || !hand.chosen)
             continue;
@@ -60,9 +85,11 @@ ClipPlane flipped(ClipPlane plane) {
 
 ToolDrawing draw_clip(const Settings& settings, const DataFrame& data) {
     const ClipPlane& clip = settings.clip;
-    return {clip.shown ? outline_lines({clip.point, clip.normal}, data, kClipColor)
-                       : std::vector<ToolLine>(),
-            {}};
+    ToolDrawing drawing = draw_clip_box(settings, data);
+    if (clip.shown)
+        for (const ToolLine& line : outline_lines({clip.point, clip.normal}, data, kClipColor))
+            drawing.lines.push_back(line);
+    return drawing;
 }
 
 } // namespace isochron::interaction

@@ -1,19 +1,24 @@
 // The clip plane: cuts the surfaces open to show their inside.
 #pragma once
 
+#include "interaction/tools/clip_box.h"
 #include "interaction/tools/plane_hold.h"
 
 namespace isochron::interaction {
 
 /// While no plane is shown, choosing a place on a surface lays a plane through it, across the ray;
-/// the side towards the hand is cut away. While one is shown, hands hold it (`PlaneHold`).
+/// the side towards the hand is cut away. While one is shown, hands hold it (`PlaneHold`). While the
+/// clip box is shown, a hand whose ray meets one of its faces moves that face.
 class ClipTool final : public Tool {
   public:
     ToolOutcome update(std::span<const ToolHand> hands, const ToolContext& now) override;
     bool takes_drag() const override { return hold_.pulls(); }
 
   private:
+    std::optional<ClipBox> moved_box(std::span<const ToolHand> hands, const ToolContext& now);
+
     PlaneHold hold_;
+    std::optional<BoxFace> face_; ///< of the box, which is held in the place of the plane
 };
 
 /// The plane through a place, across a direction in the room; the side that it comes from is cut away.

@@ -109,10 +109,10 @@ Slices without_slice(Slices slices) {
 }
 
 Slices snapped(Slices slices, int axis, const DataFrame& data) {
-    if (slices.picked < slices.planes.size())
-        slices.planes[slices.picked].normal = across(axis, data);
-    else
-        slices.planes.push_back({middle_of(data), across(axis, data)});
+    if (slices.planes.empty())
+        slices.planes.push_back({middle_of(data), {}});
+    slices.picked = std::min(slices.picked, static_cast<std::uint32_t>(slices.planes.size()) - 1);
+    slices.planes[slices.picked].normal = across(axis, data);
     return slices;
 }
 

@@ -64,8 +64,9 @@ bool ToolBox::takes_drag(const Reading& now, const ControlContext& context) cons
     const auto& tool = tools_[static_cast<std::size_t>(context.settings.tools.mouse)];
     const Settings& settings = context.settings;
     const ToolKind held = settings.tools.mouse;
-    const bool moves_planes = (held == ToolKind::clip && settings.clip.shown) ||
-                              (held == ToolKind::slice && settings.slices.shown());
+    const bool moves_planes =
+        (held == ToolKind::clip && (settings.clip.shown || settings.clip_box.shown)) ||
+        (held == ToolKind::slice && settings.slices.shown());
     const bool may_begin = moves_planes && left_down(now) && !left_before(now);
     return tool->takes_drag() || may_begin;
 }

@@ -50,8 +50,15 @@ const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table() {
          .looks_at_surfaces = true,
          .make = made<ClipTool>,
          .makes = "clip plane",
-         .made = [](const Settings& settings) { return settings.clip.shown; },
-         .remove = [](Commands& commands) { commands.clip = ClipPlane{}; },
+         .made =
+             [](const Settings& settings) {
+                 return settings.clip.shown || settings.clip_box.shown;
+             },
+         .remove =
+             [](Commands& commands) {
+                 commands.clip = ClipPlane{};
+                 commands.clip_box = ClipBox{};
+             },
          .draw = draw_clip,
          .old_bit = 50},
         {.kind = ToolKind::ruler,

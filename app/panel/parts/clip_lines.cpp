@@ -4,9 +4,12 @@
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/plane_fields.h"
+#include "app/panel/parts/rows.h"
 #include "app/panel/parts/theme.h"
+#include "interaction/tools/clip_box.h"
 #include "interaction/tools/clip_tool.h"
 
+#include <glm/vector_relational.hpp>
 #include <imgui.h>
 
 #include <array>
@@ -17,6 +20,33 @@ namespace {
 
 using interaction::ClipPlane;
 using interaction::Commands;
+
+/// The box's ends along each axis, as indices of vertices, while it is shown.
+void box_fields(const PanelModel& model, Commands& commands) {
+    constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+    interaction::ClipBox box = model.asked.clip_box;
+    if (!box.shown)
+        return;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(color_of(Ink::dim), "box");
+    for (int axis = 0; axis < 3; ++axis) {
+        ImGui::PushID(axis);
+        ImGui::SameLine();
+        ImGui::TextColored(color_of(Ink::dim), "%s", kAxes[static_cast<std::size_t>(axis)]);
+        const FieldRange range{.low = 0, .high = model.data.cells[axis]};
+        for (const bool high : {false, true}) {
+            double& end = high ? box.high[axis] : box.low[axis];
+            ImGui::SameLine(0.0f, 4.0f);
+            ImGui::SetNextItemWidth(54.0f);
+            number_field(high ? "##high" : "##low", end, range, "%.4g");
+            tip("an end of the box, as the index of a vertex (--crop of commands counts so): drag, "
+                "or click and type");
+        }
+        ImGui::PopID();
+    }
+    if (box != model.asked.clip_box && glm::all(glm::lessThan(box.low, box.high)))
+        commands.clip_box = box;
+}
 
 } // namespace
 
@@ -33,8 +63,15 @@ void clip_lines(const PanelModel& model, Commands& commands) {
             "cut away (Ctrl + 7)");
         ImGui::PopID();
     }
-    if (!model.asked.clip.shown)
+    ImGui::SameLine();
+    bool boxed = model.asked.clip_box.shown;
+    if (tick_field("##box", boxed, "box"))
+        commands.clip_box = boxed ? interaction::whole_box(model.data) : interaction::ClipBox{};
+    tip("a box along the data's axes outside which all is cut away: drag its faces");
+    if (!model.asked.clip.shown) {
+        box_fields(model, commands);
         return;
+    }
     const float side = ImGui::GetFrameHeight();
     ImGui::SameLine();
     if (icon_button("flip", Icon::flip, "cut away the other side (Ctrl + 7)", false, side))
@@ -47,6 +84,7 @@ void clip_lines(const PanelModel& model, Commands& commands) {
     plane_fields(model, plane, "the plane's normal: it points to the side that is cut away");
     if (plane != interaction::Plane{now.point, now.normal})
         commands.clip = {true, plane.point, plane.normal};
+    box_fields(model, commands);
 }
 
 } // namespace isochron::app

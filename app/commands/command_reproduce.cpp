@@ -227,9 +227,11 @@ void reproduce(const ReproduceOptions& options) {
             note.movie->recording.empty()
                 ? fmt::format("data with hash {}", note.data_hash)
                 : fmt::format("recording with hash {}", note.movie->recording)));
-    if (note.part.shows == "headset")
-        throw interaction::Error(options.picture +
-                                 ": it shows a headset's mirror, which is not made again");
+    for (const auto& [shows, words] : {std::pair("headset", "a headset's mirror"),
+                                       std::pair("panorama", "a panorama of many views")})
+        if (note.part.shows == shows)
+            throw interaction::Error(
+                fmt::format("{}: it shows {}, which is not made again", options.picture, words));
     MadePicture made = make(options, note);
     const auto bytes = stereo::encoded_image(made.image, options.picture, text_of(note));
     constexpr std::uint64_t kLargest = std::uint64_t{1} << 34;

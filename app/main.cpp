@@ -11,7 +11,8 @@ namespace {
 
 /// The lines of --version that help with reports of errors.
 std::string version_details() {
-    std::string details = kSinceRelease + std::string("\ncommit ") + kCommit + "\nwith " ISOCHRON_PARTS_WITH;
+    std::string details =
+        kSinceRelease + std::string("\ncommit ") + kCommit + "\nwith " ISOCHRON_PARTS_WITH;
     constexpr std::string_view kWithout = ISOCHRON_PARTS_WITHOUT;
     if (!kWithout.empty())
         details.append("; without ").append(kWithout);
@@ -34,8 +35,9 @@ int main(int argc, char** argv) {
          .examples = {"isochron build 'run42/*.vti' -o run42.isochron",
                       "isochron explore run42.isochron"},
          .first_commands = 5},
-        {add_info, add_build, add_explore, add_replay, add_movie, add_export, add_query, add_change,
-         add_measure, add_table, add_verify, add_serve, add_tell, add_reproduce, add_generate,
-         add_config, add_help, add_manual, add_completion},
+        {add_info,     add_build,  add_explore, add_replay, add_movie,
+         add_figure,   add_export, add_query,   add_change, add_measure,
+         add_table,    add_verify, add_serve,   add_tell,   add_reproduce,
+         add_generate, add_config, add_help,    add_manual, add_completion},
         argc, argv);
 }

@@ -13,6 +13,7 @@ void add_info(Command& program);
 void add_verify(Command& program);
 void add_explore(Command& program);
 void add_export(Command& program);
+void add_figure(Command& program);
 void add_measure(Command& program);
 void add_table(Command& program);
 void add_movie(Command& program);

@@ -4,9 +4,12 @@
 #include "app/command_line/subcommands.h"
 #include "app/explore/replay_source.h"
 #include "app/explore/series_movie.h"
+#include "app/frame/late_latch.h"
 #include "app/kept/recording_file.h"
 #include "app/output/guarded_outputs.h"
+#include "app/output/kept_frames.h"
 #include "app/output/movie_file.h"
+#include "app/output/panorama.h"
 #include "app/output/picture_parts.h"
 #include "app/telling.h"
 #include "app/text.h"
@@ -15,6 +18,7 @@
 #include "index/file/sections/file_layout.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
+#include "interaction/recording/recording_json.h"
 #include "render/gl/driver.h"
 
 #include <fmt/format.h>
@@ -27,6 +31,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -36,28 +44,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kPanoramaSize = 4096; ///< [pixel] of both eyes' pictures, if nobody says
+
 struct MovieOptions : ReplaySource {
     SeriesMovie series;
     std::string out, eyes = "window";
     double rate = 30;
-    bool force = false, background = false;
+    bool force = false, background = false, panorama = false;
 };
 
 /// One movie for the window, or one for each eye and viewport; written in the background.
 class Movies {
   public:
-    Movies(const MovieOptions& options, const PictureNames& names, MovieNote about,
-           const Reads& reads, BackgroundWork& writing)
-        : options_(options), names_(names), about_(std::move(about)), reads_(reads),
-          writing_(writing) {}
+    /// @param hurried drawing and encoding use the same processors
+    Movies(const MovieOptions& options, MovieNote about, const Reads& reads,
+           BackgroundWork& writing, bool hurried)
+        : options_(options), about_(std::move(about)), reads_(reads), writing_(writing),
+          hurried_(hurried) {}
 
-    /// Adds the pictures of the frame drawn last. @param times how many movie frames show them
-    void add(Outputs& outputs, const PictureNote& frame, std::size_t times) {
-        hurried_ = render::draws_in_software(outputs.gl());
-        each_part(outputs, options_.eyes == "each", names_, frame,
-                  [&](const PictureNote& note, const std::string& suffix, render::Image image) {
-                      add(note, suffix, std::move(image), times);
-                  });
+    /// Adds the pictures of a frame. @param times how many movie frames show them
+    void add(std::vector<FramePart> parts, std::size_t times) {
+        for (FramePart& part : parts)
+            add(std::move(part), times);
     }
 
     /// Completes the movies, and reports each.
@@ -81,64 +89,56 @@ class Movies {
         return out.parent_path() / (out.stem().string() + suffix + out.extension().string());
     }
 
-    std::shared_ptr<Movie> open(const fs::path& path, PictureNote note, glm::ivec2 size) const {
+    std::shared_ptr<Movie> open(const fs::path& path, const FramePart& first) const {
         if (is_movie_folder(path))
             return std::make_shared<MovieFolder>(path);
+        PictureNote note = note_from(first.note);
         note.movie = about_;
-        return std::make_shared<MovieFile>(path, size, options_.rate, text_of(note), hurried_);
+        return std::make_shared<MovieFile>(path, glm::ivec2(first.image.width, first.image.height),
+                                           options_.rate, text_of(note), hurried_);
     }
 
-    void add(const PictureNote& note, const std::string& suffix, render::Image image,
-             std::size_t times) {
-        const fs::path path = path_with(suffix);
+    void add(FramePart part, std::size_t times) {
+        const fs::path path = path_with(part.suffix);
         auto& movie = movies_[path];
         if (!movie) {
             guard_outputs({{path, OutputKind::movie}}, reads_, options_.force);
-            movie = open(path, note, glm::ivec2(image.width, image.height));
+            movie = open(path, part);
         }
         writing_.wait_for_room();
         // A message there means that the movie cannot be written: the other frames are not drawn.
         if (const auto said = writing_.messages(); !said.empty())
             throw index::Error(said.front());
-        writing_.post([movie = movie, image = std::move(image), times, text = text_of(note)] {
+        writing_.post([movie = movie, part = std::move(part), times] {
             for (std::size_t i = 0; i < times; ++i)
-                movie->add(image, text);
+                movie->add(part.image, part.note);
             return std::string();
         });
     }
 
     const MovieOptions& options_;
-    const PictureNames& names_;
     const MovieNote about_;
     const Reads& reads_;
     BackgroundWork& writing_;
-    bool hurried_ = false; ///< drawing and encoding use the same processors
+    const bool hurried_;
     std::map<fs::path, std::shared_ptr<Movie>> movies_;
 };
 
-/// Counts the movie frames that show a recorded frame: those before the next recorded frame's time.
-class Clock {
-  public:
-    Clock(const interaction::Recording& recording, double rate)
-        : recording_(recording), rate_(rate) {}
-    std::size_t frames_of(std::size_t number) {
-        const auto& frames = recording_.frames;
-        const double start = frames.front().input.time.count();
+/// How many movie frames show each recorded frame: those before the next recorded frame's time.
+std::vector<std::size_t> shown_frames(const interaction::Recording& recording, double rate) {
+    const auto& frames = recording.frames;
+    const double start = frames.front().input.time.count();
+    std::vector<std::size_t> counts(frames.size());
+    std::uint64_t next = 0; // frame of the movie
+    for (std::size_t i = 0; i < frames.size(); ++i) {
         // The last one is shown for one frame.
-        const double end = number + 1 < frames.size()
-                               ? frames[number + 1].input.time.count() - start
-                               : (static_cast<double>(next_) + 0.5) / rate_;
-        std::size_t count = 0;
-        for (; static_cast<double>(next_) / rate_ < end; ++next_)
-            ++count;
-        return count;
+        const double end = i + 1 < frames.size() ? frames[i + 1].input.time.count() - start
+                                                 : (static_cast<double>(next) + 0.5) / rate;
+        for (; static_cast<double>(next) / rate < end; ++next)
+            ++counts[i];
     }
-
-  private:
-    const interaction::Recording& recording_;
-    double rate_;
-    std::uint64_t next_ = 0; ///< next frame of the movie
-};
+    return counts;
+}
 
 /// Hash of the recording's content.
 std::string hash_of(const fs::path& recording) {
@@ -155,7 +155,7 @@ bool writes_recording(const MovieOptions& options) {
 /// What cannot be written is told before anything is drawn.
 void check_output(const MovieOptions& options) {
     const fs::path out(options.out);
-    constexpr std::array kSuffixes{".mp4", ".mkv", ".mov", ".gif", ".jsonl"};
+    constexpr std::array kSuffixes{".mp4", ".mkv", ".mov", ".webm", ".gif", ".jsonl"};
     if (is_movie_folder(out))
         return;
     if (std::ranges::find(kSuffixes, out.extension().string()) == kSuffixes.end())
@@ -169,14 +169,28 @@ void check_output(const MovieOptions& options) {
 void check_source(const MovieOptions& options, bool of_index) {
     const SeriesMovie& series = options.series;
     if (!of_index && (series.isovalue || !series.steps.empty() || series.between || series.turn ||
-                      !series.keys.empty()))
+                      !series.film.empty() || !series.keys.empty()))
         throw UsageError(fmt::format(
             "{}: a recording has its own view, isovalues, steps and moments between them; "
-            "--isovalue, --steps, --between, --keys and --turn go with an index",
+            "--isovalue, --steps, --between, --keys, --film and --turn go with an index",
             options.recording));
-    if (!series.keys.empty() && (series.turn || !series.steps.empty()))
-        throw UsageError("--keys: the keys say where to look and which steps pass; --turn and "
-                         "--steps go without them");
+    if (!series.keys.empty() && (series.turns() || !series.film.empty() || !series.steps.empty()))
+        throw UsageError("--keys: the keys say where to look and which steps pass; --film, --turn "
+                         "and --steps go without them");
+    if (series.turn && series.film == "time")
+        throw UsageError("--turn: `--film time` has no turn; expected one of the two");
+    if (options.panorama && (options.emulate || options.stereo || options.eyes == "each"))
+        throw UsageError("--panorama: it has both eyes, the left one's picture above the right "
+                         "one's; --emulate, --stereo and --eyes go without it");
+    if (options.panorama && options.size.size() == 2 &&
+        (options.size[0] != options.size[1] || options.size[0] % 2 != 0 ||
+         options.size[0] < PanoramaPlan::kNarrowest))
+        throw UsageError(fmt::format("--size: a panorama of both eyes is a square; expected the "
+                                     "same even number twice, from {} on, got {} {}",
+                                     PanoramaPlan::kNarrowest, options.size[0], options.size[1]));
+    if (options.panorama && writes_recording(options))
+        throw UsageError("--panorama: a recording has no pictures; give the option to the movie "
+                         "that is made of it");
     if (!of_index && writes_recording(options))
         throw UsageError(fmt::format("{}: it is a recording already; a recording is made of an "
                                      "index: isochron movie INDEX --turn -o film.jsonl",
@@ -190,12 +204,25 @@ std::string words_of_film(const MovieOptions& options, const interaction::Record
                           const glm::ivec2& size) {
     const double seconds =
         recording.frames.back().input.time.count() - recording.frames.front().input.time.count();
-    Clock clock(recording, options.rate);
-    std::size_t frames = 0;
-    for (std::size_t i = 0; i < recording.frames.size(); ++i)
-        frames += clock.frames_of(i);
+    const auto counts = shown_frames(recording, options.rate);
+    const std::size_t frames = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
     return fmt::format("{}: {:.4g} s, {} frames at {:g} per second, {} x {} pixels",
                        whole_path(options.out), seconds, frames, options.rate, size.x, size.y);
+}
+
+/// Words in corners would stand in every view that a panorama is put together from, and the box's
+/// numbers would be cut where two views meet.
+void without_words(Session& session, interaction::Recording& recording) {
+    ExplorerState state = session.state();
+    state.pictures.legend = state.pictures.scale_bar = state.pictures.box = state.pictures.caption =
+        false;
+    state.orthographic = false;
+    session.set_state(state);
+    recording.header.start.pictures = state.pictures;
+    for (interaction::RecordedFrame& frame : recording.frames) {
+        frame.commands.pictures.reset();
+        frame.commands.orthographic.reset();
+    }
 }
 
 void keep_recording(const MovieOptions& options, const interaction::Recording& recording,
@@ -222,6 +249,155 @@ void go_to_background() {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
 }
 
+/// Whether each picture shows what its own frame says, whatever was drawn before: frames may be left
+/// out then.
+bool stands_alone(const Config& config, const interaction::Recording& recording,
+                  const ReplayOptions& replay) {
+    using interaction::QualityMode;
+    const auto steered = [&](const interaction::RecordedFrame& frame) {
+        return (frame.commands.quality && !replay.quality) || !frame.from_panel.empty() ||
+               std::ranges::any_of(frame.input.devices, [](const interaction::DeviceState& device) {
+                   return device.pose_lost || !device.pose_valid;
+               });
+    };
+    const auto quality = replay.quality ? replay.quality : recording.header.start.quality;
+    return quality == QualityMode::quality && !config.comfort.vignette &&
+           recording.header.start.room_panel.value_or(interaction::RoomPanel{}) ==
+               interaction::RoomPanel{} &&
+           std::ranges::none_of(recording.frames, steered);
+}
+
+/// All that decides what the frames of a movie show.
+std::string question_of(const MovieOptions& options, const interaction::Recording& recording,
+                        const PictureNote& start) {
+    std::string question = fmt::format("{}\n{} {} {}\n", text_of(start), options.eyes,
+                                       options.emulate, options.panorama);
+    for (const auto& option : {options.stereo, options.quality, options.footprint})
+        question += option.value_or("") + '\n';
+    question += interaction::to_json(recording.header).dump() + '\n';
+    const interaction::RecordedFrame* before = nullptr;
+    for (const interaction::RecordedFrame& frame : recording.frames) {
+        question += interaction::to_json(frame, before).dump() + '\n';
+        before = &frame;
+    }
+    return question;
+}
+
+/// Draws the frames of a recording, or takes those that an earlier process has drawn.
+class FrameDrawing {
+  public:
+    FrameDrawing(const MovieOptions& options, Session& session, PictureNames names,
+                 std::optional<PanoramaPlan> panorama, const stereo::Viewer& viewer)
+        : options_(options), session_(session), names_(std::move(names)),
+          panorama_(std::move(panorama)), viewer_(viewer) {}
+
+    /// The frames to draw for one frame of the recording: those of all sectors.
+    std::size_t views() const { return panorama_ ? panorama_->sectors() : 1; }
+    /// The recording with these frames.
+    interaction::Recording drawn(const interaction::Recording& recording) const {
+        if (!panorama_)
+            return recording;
+        interaction::Recording drawn{recording.header, {}, {}};
+        for (const interaction::RecordedFrame& frame : recording.frames)
+            for (std::size_t i = 0; i < views(); ++i) {
+                interaction::RecordedFrame& one = drawn.frames.emplace_back(
+                    i == 0 ? frame : interaction::RecordedFrame{frame.input, {}, {}});
+                one.input = panorama_->turned(with_heads(frame.input, frame.latched), viewer_, i);
+                one.latched = {};
+            }
+        return drawn;
+    }
+    /// Takes the picture of the frame drawn last. @param view from 0 to `views`
+    /// @return the pictures of the recorded frame; empty: not all of its views are drawn
+    std::vector<FramePart> take(std::size_t view) {
+        std::vector<FramePart> parts;
+        if (panorama_ && view == 0)
+            sheet_.emplace(*panorama_);
+        const PictureNote frame = session_.note();
+        each_part(session_.outputs(), panorama_ || options_.eyes == "each", names_, frame,
+                  [&](const PictureNote& note, const std::string& suffix, render::Image image) {
+                      if (panorama_)
+                          sheet_->add(view, note.part, image);
+                      else
+                          parts.push_back({suffix, text_of(note), std::move(image)});
+                  });
+        if (panorama_ && view + 1 == views())
+            parts.push_back({"", text_of(session_.outputs().noted(frame, {.shows = "panorama"})),
+                             sheet_->take()});
+        return parts;
+    }
+
+  private:
+    const MovieOptions& options_;
+    Session& session_;
+    const PictureNames names_;
+    const std::optional<PanoramaPlan> panorama_;
+    const stereo::Viewer viewer_;
+    std::optional<PanoramaSheet> sheet_;
+};
+
+/// Draws what is not kept, and adds all frames to the movies, in their order.
+void draw_frames(const MovieOptions& options, Session& session,
+                 const interaction::Recording& recording, const ReplayOptions& replay,
+                 FrameDrawing& drawing, KeptFrames& kept, bool alone, Movies& movies,
+                 BackgroundWork& writing) {
+    const auto counts = shown_frames(recording, options.rate);
+    const std::size_t views = drawing.views();
+    std::size_t to_draw = 0, drawn = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        to_draw += counts[i] > 0 && !kept.holds(i);
+    if (const std::size_t there =
+            std::ranges::count_if(counts, [](auto n) { return n > 0; }) - to_draw;
+        there > 0)
+        print_report("going on: {} of its pictures are there, in {}\n", there,
+                     whole_path(kept.folder().string()));
+    std::optional<std::vector<FramePart>> read; ///< of the frame that comes next
+    const CancelOnSignal signals;
+    ProgressBar bar;
+    const Skips skips = [&](std::size_t number) {
+        const std::size_t frame = number / views;
+        if (number % views == 0 && counts[frame] > 0)
+            read = kept.read(frame);
+        return read ? alone : alone && counts[frame] == 0;
+    };
+    const auto done = [&](std::size_t number, const interaction::RecordedFrame&) {
+        signals.check();
+        const std::size_t frame = number / views, view = number % views;
+        if (counts[frame] == 0)
+            return;
+        std::vector<FramePart> parts;
+        if (!read)
+            parts = drawing.take(view);
+        else if (view + 1 == views)
+            parts = std::move(*read);
+        if (parts.empty())
+            return;
+        if (!read) {
+            ++drawn;
+            writing.wait_for_room();
+            writing.post([&kept, frame, parts] {
+                kept.keep(frame, parts);
+                return std::string();
+            });
+        }
+        read.reset();
+        movies.add(std::move(parts), counts[frame]);
+        const double share =
+            to_draw == 0 ? 1.0
+                         : std::min(1.0, static_cast<double>(drawn) / static_cast<double>(to_draw));
+        if (options.background)
+            tell(share);
+        else
+            bar.show("making the movie", share);
+    };
+    try {
+        replay_fixed_step(session, drawing.drawn(recording), replay, done, skips);
+    } catch (const index::Error&) { // Ctrl-C ends a wait for cells, too
+        signals.check();
+        throw;
+    }
+}
+
 void make_movie(const MovieOptions& options, ClusterJob& job) {
     if (job.size() > 1)
         throw UsageError("a movie is made by one process, without mpirun");
@@ -239,49 +415,65 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
         throw interaction::Error(options.recording + ": it has no frames");
     Config config = config_of(options, recording.header);
     config.pictures.only_kept = true;
+    ReplayOptions replay = replay_options(options);
+    std::optional<PanoramaPlan> panorama;
+    if (options.panorama) {
+        const int width = options.size.empty() ? kPanoramaSize : options.size[0];
+        panorama.emplace(glm::ivec2(width));
+        panorama->prepare(config.installation);
+        config.pictures.caption = false;
+        replay.stereo = stereo::StereoMode::top_bottom;
+        replay.quality =
+            interaction::QualityMode::quality; // the head that turns is nobody's motion
+        recording.header.start.stereo = name_of(*replay.stereo);
+    }
     const auto file = data_of(options, recording.header, config);
     Session session(config, file, windows_of(options, config, recording.header, job));
-    const ReplayOptions replay = replay_options(options);
     session.set_data_name(data_name(options, recording.header),
                           other_data(recording.header, *file));
     session.set_state(start_of(recording.header, session.state(), file->info().steps(), replay));
     if (of_index)
         recording =
             steps_seen(session, config, *file, recording.header, options.series, options.rate);
+    if (panorama)
+        without_words(session, recording);
     Reads reads = reads_of(options, file.get());
     if (!options.series.keys.empty())
         reads.files.emplace_back(options.series.keys);
     if (writes_recording(options))
         return keep_recording(options, recording, reads);
-    print_report("{}\n",
-                 words_of_film(options, recording, config.installation.windows.front().size));
-    const PictureNames names = picture_names(config.installation);
-    BackgroundWork writing;
-    Movies movies(options, names, {options.rate, of_index ? "" : hash_of(options.recording)}, reads,
-                  writing);
-    Clock clock(recording, options.rate);
-    {
-        const CancelOnSignal signals;
-        ProgressBar bar;
-        try {
-            replay_fixed_step(session, recording, replay,
-                              [&](std::size_t number, const interaction::RecordedFrame&) {
-                                  signals.check();
-                                  if (const std::size_t times = clock.frames_of(number))
-                                      movies.add(session.outputs(), session.note(), times);
-                                  const double done = static_cast<double>(number + 1) /
-                                                      static_cast<double>(recording.frames.size());
-                                  if (options.background)
-                                      tell(done);
-                                  else
-                                      bar.show("making the movie", done);
-                              });
-        } catch (const index::Error&) { // Ctrl-C ends a wait for cells, too
-            signals.check();
-            throw;
-        }
+    print_report("{}\n", words_of_film(options, recording,
+                                       panorama ? panorama->size()
+                                                : config.installation.windows.front().size));
+    if (options.eyes == "window" && config.installation.windows.size() == 1)
+        guard_outputs({{options.out, OutputKind::movie}}, reads, options.force);
+    KeptFrames kept(options.out,
+                    question_of(options, recording, session.outputs().noted(session.note(), {})));
+    for (const fs::path& other : kept.others())
+        print_note("{}: pictures of a movie of this name that was not finished; remove the folder "
+                   "unless you make that movie",
+                   whole_path(other.string()));
+    FrameDrawing drawing(options, session, picture_names(config.installation), panorama,
+                         config.installation.viewers.front());
+    try {
+        BackgroundWork writing;
+        Movies movies(options, {options.rate, of_index ? "" : hash_of(options.recording)}, reads,
+                      writing, render::draws_in_software(session.outputs().gl()));
+        draw_frames(options, session, recording, replay, drawing, kept,
+                    stands_alone(config, recording, replay), movies, writing);
+        movies.finish();
+    } catch (const Canceled&) {
+        if (options.background) // the panel's button deletes
+            kept.remove();
+        else
+            print_note("the pictures so far are kept in {}; the same command goes on",
+                       whole_path(kept.folder().string()));
+        throw;
+    } catch (...) {
+        kept.remove();
+        throw;
     }
-    movies.finish();
+    kept.remove();
 }
 
 } // namespace
@@ -299,8 +491,9 @@ void add_movie(Command& program) {
                       "step needs a frame");
     command
         .option("-o,--output,--out", options->out,
-                "Movie to write: .mp4, .mkv or .mov (H.264), or .gif; or a folder for its frames "
-                "(.png); or .jsonl, the film of an index as a recording, which `replay` plays")
+                "Movie to write: .mp4, .mkv or .mov (H.264), .webm (VP9), or .gif; or a folder for "
+                "its frames (.png); or .jsonl, the film of an index as a recording, which `replay` "
+                "plays")
         .required()
         .type_name("FILE");
     command
@@ -326,15 +519,22 @@ void add_movie(Command& program) {
                 "(docs/FORMATS.md), or a session that has "
                 "keys (Ctrl + M in `explore`)")
         .type_name("FILE");
-    const Option turn =
-        command.flag("--turn", options->series.turn,
-                     "With an index: one turn about the data's up axis while the steps pass; with "
-                     "`--steps 5`, while step 5 stands");
-    command.option("--length", options->series.seconds, "Length of the turn")
+    command
+        .option("--film", options->series.film,
+                "With an index: a ready film, `time` (the steps pass), `turn` (one turn about the "
+                "data's up axis while the first of the steps stands) or `both` (one turn while the "
+                "steps pass) (default: time)")
+        .one_of({"time", "turn", "both"})
+        .type_name("FILM");
+    command.flag("--turn", options->series.turn,
+                 "`--film both`; with `--steps 5`, one turn while step 5 stands");
+    command.option("--length", options->series.seconds, "With an index: length of the turn")
         .between(0.1, interaction::kLongestFilm)
-        .needs(turn)
         .shows_default()
         .type_name("SECONDS");
+    command.flag("--panorama", options->panorama,
+                 "All directions for both eyes: equirectangular, the left eye's picture above the "
+                 "right eye's, in a square of 4096 pixels, or as --size says");
     command.option("--rate", options->rate, "Frames per second")
         .positive()
         .shows_default()
@@ -351,8 +551,10 @@ void add_movie(Command& program) {
         "--background", options->background,
         "Work as the panel's movies do: at low priority, with progress in lines on stdout, "
         "and only as long as the program that started this one runs");
-    command.footer("Each frame is drawn for its time in the movie. `replay --every` writes single "
-                   "pictures.");
+    command.footer(
+        "Each frame is drawn for its time in the movie. `replay --every` writes single "
+        "pictures. While a movie is made, its pictures are kept in a hidden folder beside "
+        "it; if the command is ended before, the same command goes on with them.");
     command.on_run(
         [options] { run_in_cluster([&](ClusterJob& job) { make_movie(*options, job); }); });
 }

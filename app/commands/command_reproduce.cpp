@@ -1,6 +1,7 @@
 // `isochron reproduce`: draws a picture again from the note inside it, and compares the two.
 #include "app/command_line/subcommands.h"
 #include "app/config/config_words.h"
+#include "app/explore/figure_page.h"
 #include "app/explore/kept_session.h"
 #include "app/explore/replay_source.h"
 #include "app/indexing/open_index.h"
@@ -22,6 +23,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <span>
+#include <tuple>
 
 namespace isochron::app {
 namespace {
@@ -212,7 +215,66 @@ void describe(const std::string& picture, const PictureNote& note) {
                  note.data_hash, note.program);
 }
 
+/// Makes a figure again from its record. @return whether the file is one
+bool reproduced_figure(const ReproduceOptions& options) {
+    const std::string text = figure_note_in(options.picture);
+    if (text.empty())
+        return false;
+    const FigureRecord record = figure_record_from(text);
+    const FigureFile figure = parse_figure(record.text, options.picture, record.texts);
+    std::vector<fs::path> data;
+    for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+        const fs::path beside = fs::path(options.picture).parent_path();
+        const std::string& named = i < record.data.size() ? record.data[i] : "";
+        data.push_back(beside / figure.panels[i].index);
+        std::error_code ignored;
+        for (const fs::path& path : {beside / named, fs::path(named)})
+            if (!fs::is_regular_file(data.back(), ignored))
+                data.back() = path;
+        if (options.data)
+            data.back() = *options.data;
+        const auto file = open_index_to_show(data.back());
+        if (i < record.hashes.size() && data_hash_of(*file) != record.hashes[i] &&
+            !options.any_data)
+            throw interaction::Error(fmt::format("{}: panel {} was made of other data: expected "
+                                                 "hash {}, {} has {} (--any-data draws "
+                                                 "them)",
+                                                 options.picture, i + 1, record.hashes[i],
+                                                 data.back().string(), data_hash_of(*file)));
+    }
+    print_report("{}: a figure of {} panel{}, by {}\n", options.picture, figure.panels.size(),
+                 figure.panels.size() == 1 ? "" : "s", record.program);
+    MadeFigure made = make_figure(figure, options.picture, data,
+                                  *stereo::context_kind_from_name(options.context));
+    const std::string drawn_with = made.record.drawn_with;
+    made.page.note = text;
+    const auto bytes = figure_bytes(made, figure.dpi, options.picture);
+    const std::string there = index::read_text(options.picture, std::uint64_t{1} << 34);
+    if (options.out) {
+        guard_outputs({{*options.out, OutputKind::picture}}, {{options.picture}, nullptr},
+                      options.force);
+        index::NewFile file(*options.out);
+        file.write_at(0, figure_bytes(made, figure.dpi, *options.out));
+        file.commit();
+        print_report("wrote {}\n", *options.out);
+    }
+    const bool equal = std::ranges::equal(std::as_bytes(std::span(there)), bytes);
+    tell_result({{"picture", options.picture}, {"equal", equal}, {"equal_bytes", equal}});
+    if (equal) {
+        print_report("made again: the same {} bytes\n", there.size());
+        return true;
+    }
+    for (const auto& [what, then, now] :
+         {std::tuple("program", record.program, std::string(kProgram)),
+          std::tuple("driver", record.drawn_with, drawn_with)})
+        if (then != now)
+            print_report("differs: {}: {}, here {}\n", what, then, now);
+    throw interaction::Error(options.picture + ": made again, it differs");
+}
+
 void reproduce(const ReproduceOptions& options) {
+    if (reproduced_figure(options))
+        return;
     const PictureNote note = note_in(options.picture);
     describe(options.picture, note);
     if (note.movie)
@@ -227,9 +289,11 @@ void reproduce(const ReproduceOptions& options) {
             note.movie->recording.empty()
                 ? fmt::format("data with hash {}", note.data_hash)
                 : fmt::format("recording with hash {}", note.movie->recording)));
-    if (note.part.shows == "headset")
-        throw interaction::Error(options.picture +
-                                 ": it shows a headset's mirror, which is not made again");
+    for (const auto& [shows, words] : {std::pair("headset", "a headset's mirror"),
+                                       std::pair("panorama", "a panorama of many views")})
+        if (note.part.shows == shows)
+            throw interaction::Error(
+                fmt::format("{}: it shows {}, which is not made again", options.picture, words));
     MadePicture made = make(options, note);
     const auto bytes = stereo::encoded_image(made.image, options.picture, text_of(note));
     constexpr std::uint64_t kLargest = std::uint64_t{1} << 34;
@@ -273,7 +337,8 @@ void add_reproduce(Command& program) {
          "isochron reproduce pictures/stamp_00012_stamp-1.png --data run42.isochron -o again.png"});
     command
         .option("picture", options->picture,
-                "Picture (.png, .exr, .tiff or .jpg) that isochron wrote")
+                "Picture (.png, .exr, .tiff or .jpg) or figure (.pdf, .png or .tiff) that isochron "
+                "wrote")
         .required()
         .type_name("FILE");
     command

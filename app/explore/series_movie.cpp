@@ -24,19 +24,6 @@
 namespace isochron::app {
 namespace {
 
-/// The data fill the picture where the screen is the viewer's, as in a window.
-void fill_picture(const Session& session, const Config& config, const index::SeriesInfo& info,
-                  ExplorerState& state) {
-    const stereo::Windows& windows = session.outputs().windows();
-    const stereo::Screen& screen = config.installation.windows.front().viewports.front().screen;
-    if (config.placement.fill <= 0 || windows.room() || !screen.carried_by_head ||
-        !screen.fit_aspect)
-        return;
-    state.room_from_physical = filling(info, config.placement, screen,
-                                       {config.installation.viewers.front().position, {1, 0, 0, 0}},
-                                       windows.first().framebuffer_size());
-}
-
 /// Sets what plays: `0:63:4` is every fourth step from 0 to 63.
 void play_steps(const SeriesMovie& movie, std::size_t steps, interaction::Commands& state) {
     if (movie.steps.empty())
@@ -51,17 +38,9 @@ void play_steps(const SeriesMovie& movie, std::size_t steps, interaction::Comman
     state.playback = playback;
 }
 
-/// The keys of a file, or of a session. @throws interaction::Error
 std::vector<interaction::KeyFrame> keys_of(const std::string& path) {
     constexpr std::uint64_t kLargest = 1 << 22; ///< [byte]
-    const std::string text = index::read_text(path, kLargest);
-    if (!is_session_text(text))
-        return interaction::keys_from(text, path);
-    auto keys = read_session(path).state.keys.value_or(std::vector<interaction::KeyFrame>());
-    if (keys.empty())
-        throw interaction::Error(
-            fmt::format("{}: a session without keys: Ctrl + M in `explore` makes them", path));
-    return interaction::keys_from(interaction::keys_text(keys), path); // in order
+    return keys_in(index::read_text(path, kLargest), path);
 }
 
 /// @throws interaction::Error naming the first key that these data cannot show
@@ -88,12 +67,34 @@ std::vector<interaction::KeyFrame> turn(const Session& session, const index::Ser
     if (steps.size() > 1 && steps[1] != steps[0] + 1)
         throw UsageError(fmt::format("--turn: all steps pass, expected --steps FIRST:LAST, got {}",
                                      movie.steps));
-    return interaction::turn_keys(session.state(), physical_center(info.grid),
-                                  index::Instant(steps.front()), index::Instant(steps.back()),
-                                  movie.seconds);
+    return interaction::turn_keys(
+        session.state(), physical_center(info.grid), index::Instant(steps.front()),
+        index::Instant(movie.film == "turn" ? steps.front() : steps.back()), movie.seconds);
 }
 
 } // namespace
+
+std::vector<interaction::KeyFrame> keys_in(const std::string& text, const std::string& name) {
+    if (!is_session_text(text))
+        return interaction::keys_from(text, name);
+    auto keys = session_in(text, name).state.keys.value_or(std::vector<interaction::KeyFrame>());
+    if (keys.empty())
+        throw interaction::Error(
+            fmt::format("{}: a session without keys: Ctrl + M in `explore` makes them", name));
+    return interaction::keys_from(interaction::keys_text(keys), name); // in order
+}
+
+void fill_picture(const Session& session, const Config& config, const index::SeriesInfo& info,
+                  ExplorerState& state) {
+    const stereo::Windows& windows = session.outputs().windows();
+    const stereo::Screen& screen = config.installation.windows.front().viewports.front().screen;
+    if (config.placement.fill <= 0 || windows.room() || !screen.carried_by_head ||
+        !screen.fit_aspect)
+        return;
+    state.room_from_physical = filling(info, config.placement, screen,
+                                       {config.installation.viewers.front().position, {1, 0, 0, 0}},
+                                       windows.first().framebuffer_size());
+}
 
 interaction::RecordingHeader header_of_series(const ReplaySource& options) {
     interaction::RecordingHeader header;
@@ -118,8 +119,8 @@ interaction::Recording steps_seen(Session& session, const Config& config,
         start.between = advised_between(file);
     session.set_state(start);
     interaction::Recording recording;
-    if (movie.turn || !movie.keys.empty()) {
-        const auto keys = movie.turn ? turn(session, info, movie) : keys_of(movie.keys);
+    if (movie.turns() || !movie.keys.empty()) {
+        const auto keys = movie.turns() ? turn(session, info, movie) : keys_of(movie.keys);
         expect_fit(keys, movie.keys, session, info.steps());
         constexpr double kMostFrames = 1 << 20;
         if (const double frames = interaction::seconds_of(keys) * rate; frames > kMostFrames)

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace isochron::app {
 
@@ -17,8 +18,19 @@ struct SeriesMovie {
     std::optional<std::string> between; ///< a name of BetweenSteps; none: as configured or advised
     std::string keys{};                 ///< file of keys, or session that has them; empty: none
     bool turn = false;                  ///< one turn about the data's up axis, while the steps pass
+    std::string film{};                 ///< `time`, `turn`, `both`; empty: as `turn` says
     double seconds = 10;                ///< length of the turn
+    bool turns() const { return turn || film == "turn" || film == "both"; }
 };
+
+/// The keys of a text: a file of keys, or a session. @param name for messages
+/// @throws interaction::Error
+std::vector<interaction::KeyFrame> keys_in(const std::string& text, const std::string& name);
+
+/// Places the data where `explore` shows them first: they fill the picture where the screen is the
+/// viewer's, as in a window.
+void fill_picture(const Session& session, const Config& config, const index::SeriesInfo& info,
+                  ExplorerState& state);
 
 /// The header that a recording of a first look at this index would have, without its state.
 /// `options.recording` names the index.

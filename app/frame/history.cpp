@@ -131,7 +131,8 @@ std::string words_for_way(const ExplorerState& now, const interaction::Commands*
 }
 
 bool History::continues(std::uint64_t fields, const interaction::InputState& input) const {
-    return !past_.empty() && fields_ != 0 && fields == fields_ &&
+    // A film's preview moves the view in each frame, and steps in some.
+    return !past_.empty() && fields != 0 && (fields & ~fields_) == 0 &&
            (held_ || input.time - changed_ <= kPause);
 }
 
@@ -145,8 +146,8 @@ void History::add_change(const ExplorerState& before, const ExplorerState& after
         past_.push_back(before);
         if (past_.size() > kMost)
             past_.pop_front();
+        fields_ = fields;
     }
-    fields_ = fields;
     changed_ = input.time;
     held_ = true;
     future_.clear();

@@ -137,16 +137,19 @@ bool is_session_text(const std::string& text) {
     return value.is_object() && format != value.end() && *format == kFormat;
 }
 
-SavedSession read_session(const std::filesystem::path& path) {
-    const std::string text = index::read_text(path, kLargest);
+SavedSession session_in(const std::string& text, const std::string& name) {
     try {
         return session_from(json::parse(text));
     } catch (const json::exception& mistake) {
         throw interaction::Error(
-            fmt::format("{}: not a session: {}", path.string(), index::json_mistake(mistake)));
+            fmt::format("{}: not a session: {}", name, index::json_mistake(mistake)));
     } catch (const interaction::Error& mistake) {
-        throw interaction::Error(fmt::format("{}: {}", path.string(), mistake.what()));
+        throw interaction::Error(fmt::format("{}: {}", name, mistake.what()));
     }
+}
+
+SavedSession read_session(const std::filesystem::path& path) {
+    return session_in(index::read_text(path, kLargest), path.string());
 }
 
 ExplorerState state_of(const SavedSession& saved, const ExplorerState& fallback,

@@ -46,8 +46,10 @@ void save_session(const std::filesystem::path& path, const SavedSession& session
 /// Whether a text begins as a session's file may: its format is one.
 bool is_session_text(const std::string& text);
 
-/// @throws index::Error when the file cannot be read
-/// @throws interaction::Error naming the file: not a session, a newer version, ...
+/// @param name for messages
+/// @throws interaction::Error naming it: not a session, a newer version, ...
+SavedSession session_in(const std::string& text, const std::string& name);
+/// @throws index::Error when the file cannot be read; interaction::Error as `session_in`
 SavedSession read_session(const std::filesystem::path& path);
 
 /// The state of a saved session; what it does not hold is taken from `fallback`.

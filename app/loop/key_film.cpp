@@ -8,15 +8,6 @@
 #include <utility>
 
 namespace isochron::app {
-namespace {
-
-/// A range of values so wide that equal factors, not equal differences, look alike.
-bool is_wide(const index::IndexStats& stats) {
-    constexpr double kWide = 1000;
-    return stats.low > 0 && stats.high > kWide * stats.low;
-}
-
-} // namespace
 
 interaction::Recording film_of_keys(const Session& session, interaction::RecordingHeader header,
                                     std::span<const interaction::KeyFrame> keys, double rate) {
@@ -28,7 +19,8 @@ interaction::Recording film_of_keys(const Session& session, interaction::Recordi
                                    .times = session.times(),
                                    .pivot = physical_center(session.file()->info().grid),
                                    .rate = rate,
-                                   .logarithmic = is_wide(session.file()->stats())});
+                                   .logarithmic = interaction::is_wide_range(
+                                       session.file()->stats().low, session.file()->stats().high)});
     return film;
 }
 

@@ -1,18 +1,41 @@
 // The movies and recordings that the panel asks for, and the folder of pictures that it chooses.
 #include "app/loop/panel_movies.h"
 
+#include "app/config/first_placement.h"
 #include "app/loop/key_film.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
 #include "interaction/error.h"
 #include "interaction/navigation/key_frames.h"
+#include "interaction/step_track.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 
 namespace isochron::app {
+namespace {
+
+/// The keys of the film that is wanted; none: it is no film of keys.
+std::vector<interaction::KeyFrame> keys_of_wish(const std::optional<MovieWish>& wish,
+                                                const Session& session) {
+    const ExplorerState& state = session.state();
+    if (wish == MovieWish::keys)
+        return state.keys;
+    if (wish != MovieWish::turn && wish != MovieWish::both)
+        return {};
+    constexpr double kTurn = 10; // [s]
+    const auto steps = static_cast<std::uint32_t>(session.times().at.size());
+    const bool stands = wish == MovieWish::turn;
+    const index::Instant now = state.shown_instant();
+    return interaction::turn_keys(state, physical_center(session.file()->info().grid),
+                                  stands ? now : index::Instant(first_of(state.play_range, steps)),
+                                  stands ? now : index::Instant(last_of(state.play_range, steps)),
+                                  kTurn);
+}
+
+} // namespace
 
 PanelMovies::PanelMovies(MovieOrders orders, std::shared_ptr<LiveRecording> recording)
     : recording_(std::move(recording)), movies_(std::move(orders)) {}
@@ -72,10 +95,10 @@ void PanelMovies::after_frame(Session& session, const LiveFrame&) {
                                            session.times(), how.rate)](
                          const auto& path) { write_recording(path, series); },
                      recording_->work(), manner);
-    else if (wish == MovieWish::keys && !session.state().keys.empty())
+    else if (const auto keys = keys_of_wish(wish, session); !keys.empty())
         movies_.make(
-            [film = film_of_keys(session, sized(movies_.orders().header, how), session.state().keys,
-                                 how.rate)](const auto& path) { write_recording(path, film); },
+            [film = film_of_keys(session, sized(movies_.orders().header, how), keys, how.rate)](
+                const auto& path) { write_recording(path, film); },
             recording_->work(), manner);
     movies_.update();
     session.set_movies({true, recording_->is_open(), movies_.progress(),

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -62,9 +63,11 @@ void expect_cells(const Session& session) {
 
 std::vector<std::string> replay_fixed_step(Session& session,
                                            const interaction::Recording& recording,
-                                           const ReplayOptions& options, const FrameDone& done) {
+                                           const ReplayOptions& options, const FrameDone& done,
+                                           const Skips& skips) {
     std::vector<std::string> different;
     expect_arrays(session, recording);
+    Commands waiting; // of skipped frames
     for (std::size_t number = 0; number < recording.frames.size(); ++number) {
         const interaction::RecordedFrame& frame = recording.frames[number];
         if (options.from_devices) {
@@ -75,9 +78,16 @@ std::vector<std::string> replay_fixed_step(Session& session,
                 different.push_back(fmt::format("frame {} at {:.3f} s: {}", number,
                                                 frame.input.time.count(), fmt::join(fields, ", ")));
         }
-        session.frame(frame.input, obeyed(frame.commands, options), Waiting::for_cells,
-                      latch_of(frame));
-        expect_cells(session);
+        Commands commands = obeyed(frame.commands, options);
+        if (skips && skips(number)) {
+            interaction::merge(waiting, commands);
+        } else {
+            if (!waiting.empty())
+                interaction::merge(waiting, std::exchange(commands, {}));
+            session.frame(frame.input, waiting.empty() ? commands : std::exchange(waiting, {}),
+                          Waiting::for_cells, latch_of(frame));
+            expect_cells(session);
+        }
         done(number, frame);
     }
     return different;

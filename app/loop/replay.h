@@ -23,17 +23,22 @@ struct ReplayOptions {
 /// Called after each frame, with its number from 0.
 using FrameDone = std::function<void(std::size_t number, const interaction::RecordedFrame& frame)>;
 
+/// Whether nothing is drawn of a frame: what it asks for is obeyed in the next one that is drawn.
+using Skips = std::function<bool(std::size_t number)>;
+
 /// @throws index::Error when the cells of the last frame could not be found, so that its picture
 /// would be wrong
 void expect_cells(const Session& session);
 
 /// Replays with fixed steps: each recorded frame once, at its recorded time; each waits for its
 /// cells.
+/// @param skips asked before each frame, in their order; empty: all are drawn
 /// @return one line per frame whose recomputed commands differ (none without `from_devices`)
 /// @throws index::Error as expect_cells, after each frame
 std::vector<std::string> replay_fixed_step(Session& session,
                                            const interaction::Recording& recording,
-                                           const ReplayOptions& options, const FrameDone& done);
+                                           const ReplayOptions& options, const FrameDone& done,
+                                           const Skips& skips = {});
 
 /// Replays the recorded heads and hands in front of the test pattern, each frame once.
 void replay_pattern(PatternShow& show, const interaction::Recording& recording,

@@ -1,6 +1,7 @@
 // Recognizes the files that this program writes.
 #include "app/output/known_files.h"
 
+#include "app/output/page.h"
 #include "app/output/picture_note.h"
 #include "index/file/index_series.h"
 #include "index/system/input_file.h"
@@ -82,7 +83,7 @@ bool is_of_kind(const fs::path& file, const Output& output) {
     case OutputKind::ids:
         return holds_ids<std::uint32_t>(file, output.cells) ||
                holds_ids<std::uint64_t>(file, output.cells);
-    case OutputKind::picture: return !note_text_in(file).empty();
+    case OutputKind::picture: return !note_text_in(file).empty() || !figure_note_in(file).empty();
     case OutputKind::report: return is_report(file);
     case OutputKind::session: return is_session(file);
     case OutputKind::manual_page: return is_manual_page(file);

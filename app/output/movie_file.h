@@ -31,8 +31,8 @@ class Movie {
     virtual void finish() = 0;
 };
 
-/// A movie in one file. The suffix says the format: `.gif`, else H.264 in the container that ffmpeg
-/// chooses for it.
+/// A movie in one file. The suffix says the format: `.gif`, `.webm` with VP9, else H.264 in the
+/// container that ffmpeg chooses for it.
 class MovieFile final : public Movie {
   public:
     /// @param size of every picture, pixels

@@ -93,7 +93,8 @@ glm::vec2 section_over_picture(const PanelModel& model, const PanelView& view, P
 /// What lies over the picture while the panel is shown.
 void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, Commands& commands) {
     const PanelBox free = view.layout.picture;
-    view.free = {{free.low.x, free.low.y + 10.0f}, free.high};
+    const float lane = model.asked.keys.empty() ? 0.0f : kFilmLane;
+    view.free = {{free.low.x, free.low.y + 10.0f}, {free.high.x, free.high.y - lane}};
     view.lowest = view.free.low.y;
     constexpr float kApart = 8.0f, kPadding = 8.0f, kLeast = 280.0f; // for messages
     const auto keep_off = [&](const glm::vec2& corner) {
@@ -175,8 +176,10 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
     if (view.pointed == kSections)
         point_at({layout.time.low.x, layout.time.low.y}, {layout.time.high.x, layout.time.high.y});
     end_part();
-    if (model.place == PanelPlace::over)
+    if (model.place == PanelPlace::over) {
+        film_lane(model, layout, view.film, commands);
         over_picture(model, view, pages, commands);
+    }
     return commands;
 }
 

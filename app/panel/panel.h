@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/panel/panel_model.h"
+#include "app/panel/parts/film_lane.h"
 #include "app/panel/parts/panel_layout.h"
 #include "app/panel/parts/top_bar.h"
 #include "interaction/commands.h"
@@ -20,7 +21,8 @@ struct PanelView {
     /// Section that the search points at until the next click; kSections: the bar of the time.
     std::optional<std::size_t> pointed;
     float lowest = 0; ///< where chip, tools, statistics and cube end
-    PanelBox free;    ///< what chip, tools, statistics, section and cube leave of the picture
+    FilmLane film{};
+    PanelBox free; ///< what chip, tools, statistics, section and cube leave of the picture
 
     /// Closes the section or the statistics over the picture. @return whether one was open
     bool close_part() {

@@ -35,6 +35,8 @@ enum class PanelPlace : std::uint8_t {
 enum class MovieWish : std::uint8_t {
     recording, ///< a movie of this session's recording, so far
     series,    ///< a movie of all steps, as they are seen now
+    turn,      ///< a movie of one turn of the data, while this moment stands
+    both,      ///< a movie of one turn while all steps pass
     keys,      ///< a film of the key frames
     give_up,   ///< to cancel the movie that is being made
     record     ///< to begin a recording, or to end the recording that goes on

@@ -281,6 +281,8 @@ constexpr OtherNames kOtherNames[] = {
     {"movie", "save animation, export movie, export animation, make a movie, video, mp4, avi, gif, "
               "render animation, animation, film, keyframe, camera path, turntable movie"},
     {"movie_of_recording", "movie of camera path, keyframe, video of session, screen capture"},
+    {"movie_of_turn", "turntable, rotate, spin, orbit, 360, rotation movie"},
+    {"movie_of_both", "turntable, rotate and play, spin, orbit, time and turn, 4D movie"},
     {"movie_of_keys",
      "keyframes, key frames, camera path, animation, render animation, flythrough, "
      "film, video of keys"},
@@ -911,6 +913,9 @@ void add_pictures(Lines& lines) {
     }
     if (last_step(model) > 0)
         movie("movie", "make a movie of these steps with this view", MovieWish::series);
+    movie("movie_of_turn", "make a movie of one turn", MovieWish::turn);
+    if (last_step(model) > 0)
+        movie("movie_of_both", "make a movie of one turn while time plays", MovieWish::both);
     if (model.asked.keys.size() > 1)
         movie("movie_of_keys", "make a movie of the key frames", MovieWish::keys);
     if (model.movies.recorded)

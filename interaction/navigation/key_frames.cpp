@@ -113,6 +113,32 @@ std::vector<KeyFrame> without_key(std::vector<KeyFrame> keys, std::size_t number
     return keys;
 }
 
+std::vector<KeyFrame> with_moved_key(std::vector<KeyFrame> keys, std::size_t number, double time) {
+    KeyFrame& key = keys[number];
+    const double least =
+        number == 0 ? 0.0 : keys[number - 1].time + keys[number - 1].hold + kShortestMove;
+    const double most = number == 0 ? 0.0
+                        : number + 1 == keys.size()
+                            ? kLongestFilm - key.hold
+                            : keys[number + 1].time - key.hold - kShortestMove;
+    key.time = std::max(least, std::min(time, most));
+    return keys;
+}
+
+std::vector<KeyFrame> with_held_key(std::vector<KeyFrame> keys, std::size_t number, double hold) {
+    const double more = std::clamp(hold - keys[number].hold, -keys[number].hold,
+                                   std::max(0.0, kLongestFilm - seconds_of(keys)));
+    keys[number].hold += more;
+    for (std::size_t i = number + 1; i < keys.size(); ++i)
+        keys[i].time += more;
+    return keys;
+}
+
+bool is_wide_range(double low, double high) {
+    constexpr double kWide = 1000;
+    return low > 0 && high > kWide * low;
+}
+
 Commands way_to_key(const KeyFrame& key, const Settings& now, const Pose& viewer) {
     Settings then = now;
     show_key(key, then);

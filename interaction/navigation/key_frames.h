@@ -24,6 +24,14 @@ std::vector<KeyFrame> with_key(std::vector<KeyFrame> keys, KeyFrame key);
 /// The keys without one of them; the first key that is left comes at once.
 std::vector<KeyFrame> without_key(std::vector<KeyFrame> keys, std::size_t number);
 
+/// The keys with one of them at another time: not before its predecessor's rest ends, and so that it
+/// rests before its successor. The first one stays at 0.
+std::vector<KeyFrame> with_moved_key(std::vector<KeyFrame> keys, std::size_t number, double time);
+/// The keys with another rest at one of them; those behind come so much later or sooner.
+std::vector<KeyFrame> with_held_key(std::vector<KeyFrame> keys, std::size_t number, double hold);
+/// A range of values so wide that equal factors, not equal differences, look alike.
+bool is_wide_range(double low, double high);
+
 /// Commands that show a key: only what differs from what is seen. The data stand to the viewer's
 /// place and heading as they stood to the key's; time that plays pauses.
 Commands way_to_key(const KeyFrame& key, const Settings& now, const Pose& viewer);

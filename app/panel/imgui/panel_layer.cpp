@@ -33,6 +33,15 @@ Seconds shown_for(const std::string& message) {
     return Seconds(path_in(message) ? 8.0 : 4.0);
 }
 
+/// Delete over the lane of the film is the chosen key's, not the tool's.
+bool removes_key(const WindowEvent& event, FilmLane& film) {
+    const auto* key = std::get_if<interaction::KeyEvent>(&event);
+    const bool removes = key && key->down && key->alone() && key->key == interaction::Key::del &&
+                         film.under_hand && film.chosen && !ImGui::GetIO().WantTextInput;
+    film.removes = film.removes || removes;
+    return removes;
+}
+
 } // namespace
 
 PanelLayer::PanelLayer(const render::Gl& gl, float scale)
@@ -126,7 +135,8 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
     while (!waiting_.empty() && !waits(waiting_.front())) {
         const WindowEvent event = waiting_.front();
         waiting_.pop_front();
-        if (pages_.turn(event, has_popup()) || (shown && leaves_part(event)))
+        if (pages_.turn(event, has_popup()) ||
+            (shown && (leaves_part(event) || removes_key(event, view_.film))))
             continue;
         const bool open = shown || pages_.any() || pages_.takes_text();
         const bool taken = std::visit(taker, event);
@@ -344,7 +354,7 @@ FrameOutlook PanelLayer::outlook() const {
     const auto is_down = [](bool down) { return down; };
     FrameOutlook next{.changed = changed_ || fed_, .final = true};
     next.busy = late_releases_ != 0 || !waiting_.empty() || closes_popup_ || pages_.has_presses() ||
-                std::ranges::any_of(io.MouseDown, is_down) ||
+                view_.film.preview || std::ranges::any_of(io.MouseDown, is_down) ||
                 std::ranges::any_of(io.KeysDown, is_down);
     if (io.WantTextInput)
         next.until = laid_out_ + kCaretBlinks;

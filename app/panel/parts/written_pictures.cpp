@@ -186,7 +186,15 @@ std::optional<MovieWish> movie_rows(const PanelModel& model, interaction::Comman
         wish = MovieWish::series;
     ImGui::EndDisabled();
     tip("a movie of these steps with this view, at the playback speed");
+    if (ImGui::Button("one turn"))
+        wish = MovieWish::turn;
+    tip("a movie of 10 s: one turn about the data's up axis, while this moment stands");
     ImGui::SameLine();
+    ImGui::BeginDisabled(steps < 2);
+    if (ImGui::Button("one turn while time plays"))
+        wish = MovieWish::both;
+    ImGui::EndDisabled();
+    tip("a movie of 10 s: one turn about the data's up axis, while these steps pass");
     ImGui::BeginDisabled(!model.movies.recorded);
     if (ImGui::Button("recording so far"))
         wish = MovieWish::recording;

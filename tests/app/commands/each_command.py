@@ -113,7 +113,7 @@ serve run42.isochron --write-site site
 generate sphere -o again --step-count 1 --force
 config import cave.pvx -o cave.toml --force
 manual -o pages"""
-MOVIE = "movie walk.jsonl -o frames/ --force"
+MOVIE = "movie walk.jsonl -o frames/ --force\nfigure figure.toml -o figure.pdf"
 PICTURES = """replay walk.jsonl --stamps -o pictures
 reproduce pictures/stamp_00012_stamp-1.png"""
 

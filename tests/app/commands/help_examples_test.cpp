@@ -35,6 +35,8 @@ class HelpExamples : public testing::Test {
                                   "LowerLeft=\"-4 0 -3\" LowerRight=\"4 0 -3\" "
                                   "UpperRight=\"4 6 -3\"/>\n</pvx>\n");
         write_recording("run42.isochron");
+        folder_.write("figure.toml",
+                      "width = 40\ndpi = 60\n[[panels]]\nindex = \"run42.isochron\"\n");
         environment_ = {"HOME=" + folder_.path().string(),
                         "XDG_RUNTIME_DIR=" + folder_.path().string(),
                         "PATH=" + folder_.path().string() + "/bin:" + test_support::binary_root() +
@@ -294,7 +296,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values("README", "docs/guide/data", "docs/guide/tutorial", "docs/guide/recordings",
                     "docs/guide/cells", "docs/guide/export", "docs/guide/programs",
                     "docs/guide/walls", "docs/guide/clusters", "docs/guide/trackers",
-                    "docs/guide/measure", "docs/guide/sharing"),
+                    "docs/guide/measure", "docs/guide/sharing", "docs/guide/figures"),
     [](const auto& page) { return page.param.substr(page.param.rfind('/') + 1); });
 
 TEST_P(GuideCommands, WorkAsTheyAreWritten) {

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -180,6 +181,101 @@ TEST_F(MovieTest, ARecordingOfASecondHasTheFramesOfASecond) {
     EXPECT_THAT(again.err, testing::HasSubstr("isochron movie RECORDING --rate 20"));
 }
 
+/// A process that is killed while it makes a movie, by an ffmpeg that does so, leaves its frames; the
+/// same command goes on, and its movie has the bytes of one that was made at once.
+TEST_F(MovieTest, GoesOnAfterAKillAndHasTheSameBytes) {
+    namespace fs = std::filesystem;
+    build_sphere(folder_.path());
+    const auto ffmpeg = [&](const std::string& script) {
+        folder_.write("ffmpeg", "#!/bin/sh\nfor last; do :; done\n" + script);
+    };
+    const std::string whole = "cat > \"$last\"\n";
+    const std::vector<std::string> film{
+        "movie", "sphere.isochron", "--film", "both", "--length", "1",    "--rate",
+        "8",     "--size",          "64",     "48",   "-o",       "a.mp4"};
+    const auto make = [&](std::vector<std::string> words, const std::string& more = {}) {
+        if (!more.empty())
+            words.push_back(more);
+        return run_child(test_support::binary_root() + "/isochron", words, folder_.path());
+    };
+    const auto left = [&] {
+        std::vector<fs::path> folders;
+        for (const auto& entry : fs::directory_iterator(folder_.path()))
+            if (entry.path().extension() == ".frames")
+                folders.push_back(entry.path());
+        return folders;
+    };
+    ffmpeg(whole);
+    ASSERT_EQ(make(film).status, 0);
+    const std::string right = folder_.read("a.mp4");
+    ASSERT_EQ(right.size(), 9u * 64 * 48 * 4);
+    EXPECT_TRUE(left().empty()) << "finished";
+    fs::remove(folder_.path() / "a.mp4");
+
+    ffmpeg("head -c 60000 > /dev/null\nkill -9 $PPID\n");
+    EXPECT_EQ(make(film).status, 1000 + SIGKILL);
+    EXPECT_FALSE(fs::exists(folder_.path() / "a.mp4"));
+    ASSERT_EQ(left().size(), 1u);
+    const fs::path frames = left().front();
+    std::size_t there = 0;
+    for (const auto& entry : fs::directory_iterator(frames))
+        there += entry.path().filename().string().starts_with("frame_");
+    EXPECT_GE(there, 4u) << "60,000 bytes are nearly five frames";
+    // One of them is damaged; a file of somebody else lies beside them.
+    std::ofstream(frames / "frame_000002", std::ios::app) << "x";
+    std::ofstream(frames / "notes.txt") << "mine";
+    ffmpeg(whole);
+    const ChildResult other = make(film, "--ray"); // another question
+    EXPECT_THAT(other.err, testing::HasSubstr(frames.filename().string()));
+    fs::remove(folder_.path() / "a.mp4");
+    const ChildResult again = make(film);
+    EXPECT_EQ(again.status, 0) << again.err;
+    EXPECT_THAT(again.out, testing::HasSubstr(fmt::format("{} of its pictures", there)));
+    EXPECT_TRUE(folder_.read("a.mp4") == right);
+    EXPECT_FALSE(fs::exists(frames / "frame_000000"));
+    EXPECT_TRUE(fs::exists(frames / "notes.txt"));
+}
+
+TEST_F(MovieTest, ReadyFilmsAreTimeATurnAndBoth) {
+    build_sphere(folder_.path());
+    const auto of = [&](const std::string& film) {
+        const ChildResult made = run_child(test_support::binary_root() + "/isochron",
+                                           {"movie", "sphere.isochron", "--film", film, "--rate",
+                                            "0.4", "--size", "64", "48", "-o", film + "/"},
+                                           folder_.path());
+        EXPECT_EQ(made.status, 0) << made.err;
+        std::set<std::uint32_t> steps;
+        std::set<double> turns;
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / film)) {
+            const PictureNote note = note_from(note_text_in(entry.path()));
+            steps.insert(note.state.instant->step);
+            turns.insert(note.state.room_from_physical->rotation.w);
+        }
+        return std::pair(steps.size() > 1, turns.size() > 1);
+    };
+    EXPECT_EQ(of("time"), std::pair(true, false));
+    EXPECT_EQ(of("turn"), std::pair(false, true));
+    EXPECT_EQ(of("both"), std::pair(true, true));
+}
+
+TEST_F(MovieTest, WhatAPanoramaCannotBeIsSaidInALine) {
+    build_sphere(folder_.path());
+    for (const auto& [more, words] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+             {{"--size", "512", "256"}, "expected the same even number twice"},
+             {{"--size", "511", "511"}, "got 511 511"},
+             {{"--emulate"}, "--emulate, --stereo and --eyes go without it"},
+             {{"--stereo", "mono"}, "--emulate, --stereo and --eyes go without it"},
+             {{"--eyes", "each"}, "--emulate, --stereo and --eyes go without it"}}) {
+        std::vector<std::string> all{"movie", "sphere.isochron", "--panorama", "-o", "p.mp4"};
+        all.insert(all.end(), more.begin(), more.end());
+        const ChildResult refused =
+            run_child(test_support::binary_root() + "/isochron", all, folder_.path());
+        EXPECT_EQ(refused.status, 2);
+        EXPECT_THAT(refused.err, testing::HasSubstr(words));
+        EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    }
+}
+
 TEST_F(MovieTest, OfAnIndexHasEveryStepOnceAsTheExplorerShowsItFirst) {
     build_sphere(folder_.path());
     const auto movie = [&](std::vector<std::string> more) {
@@ -302,9 +398,8 @@ TEST_F(MovieTest, OfKeysGoesThroughThemAndIsTheSameTwiceAndAsARecording) {
         EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
         EXPECT_FALSE(std::filesystem::exists(folder_.path() / "no"));
     }
-    EXPECT_THAT(
-        program({"movie", "sphere.isochron", "--turn", "--rate", "1e300", "-o", "no/"}).err,
-        testing::HasSubstr("--rate: a film has at most 1048576 frames, got "));
+    EXPECT_THAT(program({"movie", "sphere.isochron", "--turn", "--rate", "1e300", "-o", "no/"}).err,
+                testing::HasSubstr("--rate: a film has at most 1048576 frames, got "));
     EXPECT_NE(program({"movie", "film.jsonl", "--turn", "-o", "no/"}).status, 0);
     EXPECT_NE(program({"movie", "film.jsonl", "-o", "no.jsonl"}).status, 0);
     EXPECT_NE(movie("keys.json", {"--keys", "keys.json"}).status, 0);

@@ -53,6 +53,7 @@ const TestFolder& prepared() {
                                  "<Machine Name=\"a\" Environment=\"DISPLAY=:0\" "
                                  "LowerLeft=\"-1 -1 -1\" LowerRight=\"1 -1 -1\" "
                                  "UpperRight=\"1 1 -1\"/></Process></pvx>");
+        folder.write("figure.toml", "width = 30\ndpi = 40\n[[panels]]\nindex = \"a.isochron\"\n");
         folder.write("own.toml", "[rendering]\ncontext = \"egl\"\n[[windows]]\nsize = [64, 48]\n");
         interaction::RecordingHeader header;
         header.configuration = folder.read("own.toml");

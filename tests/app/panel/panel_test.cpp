@@ -219,7 +219,7 @@ class MovieButtons : public PanelTest {
         ImGui::GetIO().MouseDown[0] = down;
         ImGui::NewFrame();
         ImGui::SetNextWindowPos({0, 0});
-        ImGui::SetNextWindowSize({380, 240});
+        ImGui::SetNextWindowSize({380, 300});
         ImGui::Begin("panel");
         interaction::Commands commands;
         const auto wish = movie_rows({.info = info_,
@@ -235,7 +235,7 @@ class MovieButtons : public PanelTest {
     }
     std::set<MovieWish> wishes() {
         std::set<MovieWish> all;
-        for (int y = 25; y < 240; y += 6)
+        for (int y = 25; y < 300; y += 6)
             for (int x = 10; x < 380; x += 20)
                 for (const bool down : {false, false, true, false})
                     if (const auto wish = frame(float(x), float(y), down))
@@ -248,11 +248,11 @@ class MovieButtons : public PanelTest {
 
 TEST_F(MovieButtons, AskForAMovieOfTheRecordingOrOfTheSeriesWhereThereIsOne) {
     using enum MovieWish;
-    EXPECT_EQ(wishes(), (std::set{recording, series}));
+    EXPECT_EQ(wishes(), (std::set{recording, series, turn, both}));
     movies_.recorded = false;
-    EXPECT_EQ(wishes(), std::set{series});
+    EXPECT_EQ(wishes(), (std::set{series, turn, both}));
     info_.times = {0};
-    EXPECT_EQ(wishes(), std::set<MovieWish>());
+    EXPECT_EQ(wishes(), std::set{turn});
 }
 
 TEST_F(MovieButtons, AMovieThatIsBeingMadeCanOnlyBeGivenUp) {

@@ -19,8 +19,8 @@ class LegendTest : public render::GlTest {
     Legend of_temperature() const {
         return {.surfaces = {},
                 .value_unit = "K",
-                .scale = ColorScale{
-                    .title = "temperature [K]", .range = {280, 320}, .whole = {250, 400}}};
+                .scales = {{.title = "temperature [K]", .range = {280, 320}, .whole = {250, 400}}},
+                .colored = true};
     }
     render::TextPass text_{gl_, room_font};
 };
@@ -93,7 +93,8 @@ TEST_P(LegendTest, SaysWhichArrayTheIsovaluesAreOfWhereColorsAreAnothers) {
     const auto with = legend_quads(legend, text_, {1000, 1000});
     // Each letter has its halo below it.
     EXPECT_EQ(with.size() - without.size(), 2 * legend.array.size());
-    legend.scale.reset(); // patches of color tell then
+    legend.scales.clear(); // patches of color tell then
+    legend.colored = false;
     EXPECT_EQ(legend_quads(legend, text_, {1000, 1000}).size(),
               legend_quads({two, "K", {}}, text_, {1000, 1000}).size());
 }

@@ -1,6 +1,8 @@
 // Keys of the keyboard add, visit and remove the key frames of a film.
 #include "tests/interaction/controls/control_desk.h"
 
+#include "interaction/navigation/key_frames.h"
+
 #include <gmock/gmock.h>
 
 namespace isochron::interaction {
@@ -43,6 +45,29 @@ TEST(KeyFrameControls, KeysAreAddedVisitedAndRemoved) {
     EXPECT_TRUE(desk.settings.keys.empty());
     EXPECT_TRUE(desk.tap(Action::next_key).empty());
     EXPECT_TRUE(desk.tap(Action::remove_key).empty());
+}
+
+TEST(KeyFrameControls, AKeyIsMovedBetweenItsNeighborsAndItsRestMovesThoseBehind) {
+    const auto times = [](const std::vector<KeyFrame>& keys) {
+        std::vector<double> all;
+        for (const KeyFrame& key : keys)
+            all.insert(all.end(), {key.time, key.hold});
+        return all;
+    };
+    using Times = std::vector<double>;
+    std::vector<KeyFrame> keys(3);
+    keys[1].time = 2;
+    keys[1].hold = 0.5;
+    keys[2].time = 6;
+    EXPECT_EQ(times(with_moved_key(keys, 0, 3)), (Times{0, 0, 2, 0.5, 6, 0})) << "stays at 0";
+    EXPECT_EQ(times(with_moved_key(keys, 1, 3)), (Times{0, 0, 3, 0.5, 6, 0}));
+    EXPECT_EQ(with_moved_key(keys, 1, 9)[1].time, 6 - 0.5 - kShortestMove);
+    EXPECT_EQ(with_moved_key(keys, 1, -1)[1].time, kShortestMove);
+    EXPECT_EQ(with_moved_key(keys, 2, 1)[2].time, 2.5 + kShortestMove);
+    EXPECT_EQ(with_moved_key(keys, 2, 1e9)[2].time, kLongestFilm);
+    EXPECT_EQ(times(with_held_key(keys, 1, 2)), (Times{0, 0, 2, 2, 7.5, 0}));
+    EXPECT_EQ(times(with_held_key(keys, 1, -3)), (Times{0, 0, 2, 0, 5.5, 0}));
+    EXPECT_EQ(seconds_of(with_held_key(keys, 2, 1e9)), kLongestFilm);
 }
 
 TEST(KeyFrameControls, AFilmHasAtMostSoManyKeys) {

@@ -1,0 +1,32 @@
+// The lane of a film's key frames over the bar of the time: marks on the film's own time, which are
+// dragged, visited and removed, and the film itself as a preview.
+#pragma once
+
+#include "app/panel/panel_model.h"
+#include "app/panel/parts/panel_layout.h"
+#include "interaction/commands.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+namespace isochron::app {
+
+struct FilmPreview;
+
+inline constexpr float kFilmLane = 38.0f; ///< height that it takes of the picture, panel pixels
+
+/// What the lane remembers from frame to frame.
+struct FilmLane {
+    std::optional<std::size_t> chosen, dragged; ///< numbers of keys
+    bool moves = false;                         ///< the hand has left the mark's place
+    bool under_hand = false;                    ///< the cursor was over it in the last frame
+    bool removes = false;                       ///< the chosen key goes in the next frame
+    std::shared_ptr<FilmPreview> preview;       ///< while the film plays
+};
+
+/// Draws it at the lower end of the picture, where there are keys.
+void film_lane(const PanelModel& model, const PanelLayout& layout, FilmLane& lane,
+               interaction::Commands& commands);
+
+} // namespace isochron::app

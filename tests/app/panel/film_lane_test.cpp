@@ -1,0 +1,121 @@
+// The lane of a film's keys: a click shows a key, a drag moves it once, Delete removes it, and the
+// film plays.
+#include "tests/app/panel/layer_fixture.h"
+
+#include "interaction/navigation/key_frames.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using interaction::KeyFrame;
+using interaction::MouseButton;
+using interaction::MouseButtonEvent;
+
+class FilmLaneTest : public LayerTest {
+  protected:
+    FilmLaneTest() {
+        for (const double isovalue : {1.0, 2.0, 3.0}) {
+            KeyFrame key;
+            key.time = 4 * (isovalue - 1);
+            key.isovalue = isovalue;
+            key.step = static_cast<std::uint32_t>(10 * isovalue);
+            asked_.keys.push_back(key);
+        }
+        frame();
+        frame();
+    }
+    /// Where a time of the film lies: 1.15 times its length are as wide as the track, which lies
+    /// between the button and the words.
+    glm::vec2 place(double time) {
+        const PanelBox& picture = layer_.layout().picture;
+        const float y = layer_.layout().time.low.y - 6 - kFilmLane / 2 + 3;
+        // From the marks that are drawn, as people find them: scanned by the words that they say.
+        std::vector<float> marks;
+        for (float x = picture.low.x + 40; x < picture.high.x - 100; x += 2) {
+            point({x, y});
+            frame();
+            if (place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(),
+                              "a click shows it"))
+                marks.push_back(x);
+        }
+        EXPECT_FALSE(marks.empty());
+        const float first = marks.front() + 8, last = marks.back() - 8;
+        return {first + (last - first) * static_cast<float>(time / 8), y};
+    }
+};
+
+TEST_F(FilmLaneTest, AClickShowsAKeyAndADragMovesItWhenTheHandLetsGo) {
+    const glm::vec2 second = place(4), later = place(6);
+    const Commands shown = click(second);
+    EXPECT_FALSE(shown.keys);
+    ASSERT_TRUE(shown.isosurfaces);
+    EXPECT_EQ(shown.isosurfaces->front().isovalue, 2);
+    EXPECT_EQ(shown.instant, index::Instant(20));
+    point(second);
+    frame({MouseButtonEvent{MouseButton::left, true}});
+    for (int i = 1; i <= 4; ++i) {
+        point(glm::mix(second, later, static_cast<float>(i) / 4));
+        EXPECT_FALSE(frame().keys) << "one change to undo";
+    }
+    const Commands moved = frame({MouseButtonEvent{MouseButton::left, false}});
+    ASSERT_TRUE(moved.keys);
+    EXPECT_NEAR((*moved.keys)[1].time, 6, 0.1);
+    EXPECT_EQ((*moved.keys)[2].time, 8);
+    EXPECT_FALSE(moved.isosurfaces);
+}
+
+TEST_F(FilmLaneTest, DeleteRemovesTheChosenKeyAndNothingOfATool) {
+    click(place(4));
+    const std::vector<interaction::WindowEvent> event{
+        interaction::KeyEvent{interaction::Key::del, true, 0}};
+    const Commands removed = frame(event);
+    EXPECT_TRUE(left_.empty()) << "no tool sees it";
+    ASSERT_TRUE(removed.keys);
+    EXPECT_EQ(removed.keys->size(), 2u);
+    EXPECT_EQ(removed.keys->back().step, 30u);
+    point({700, 300});
+    frame();
+    EXPECT_FALSE(frame(event).keys);
+    EXPECT_FALSE(left_.empty()) << "elsewhere it is the tool's";
+}
+
+TEST_F(FilmLaneTest, ThePreviewGoesThroughTheFilmAndEnds) {
+    const glm::vec2 low = layer_.layout().picture.low;
+    click({low.x + 26, place(0).y});
+    std::vector<double> seen;
+    for (int i = 0; i < 100; ++i) {
+        const Commands commands = frame();
+        if (commands.isosurfaces) {
+            asked_.isosurfaces = *commands.isosurfaces;
+            seen.push_back(asked_.isovalue());
+        }
+        if (commands.instant)
+            asked_.instant = *commands.instant;
+    }
+    ASSERT_GT(seen.size(), 40u);
+    EXPECT_TRUE(std::ranges::is_sorted(seen)) << "from 1 to 3, never back";
+    EXPECT_EQ(asked_.isovalue(), 3);
+    EXPECT_EQ(asked_.instant, index::Instant(30));
+    EXPECT_FALSE(layer_.outlook().busy) << "it has ended";
+}
+
+TEST_F(FilmLaneTest, IsNotThereWithoutKeys) {
+    const auto says_film = [&] {
+        frame();
+        frame();
+        return place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(),
+                             "film 8 s")
+            .has_value();
+    };
+    EXPECT_TRUE(says_film());
+    asked_.keys.clear();
+    EXPECT_FALSE(says_film());
+}
+
+} // namespace
+} // namespace isochron::app

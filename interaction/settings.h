@@ -72,6 +72,7 @@ struct SettingsOf {
     Holds<WrittenPictures> pictures{};
     Holds<ExportWork> exporting{};
     Holds<bool> leaving{}; ///< the program asks the user whether to quit
+    Holds<CurveDrawer> curves{};
 
     bool operator==(const SettingsOf&) const = default;
 };
@@ -113,6 +114,7 @@ constexpr void each_setting(Visit&& visit, Records&... r) {
     visit(Field{.key = "pictures", .dragged = true}, r.pictures...);
     visit(Field{.key = "exporting", .undone = false}, r.exporting...);
     visit(Field{.key = "leaving", .undone = false}, r.leaving...);
+    visit(Field{.key = "curves", .undone = false}, r.curves...);
 }
 
 template <class T>

@@ -100,6 +100,7 @@ enum class Action : std::uint8_t {
     next_key,
     previous_key,
     remove_key,
+    curves,
     count
 };
 /// Each tool can be chosen, too: those actions follow the others.

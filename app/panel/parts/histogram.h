@@ -4,6 +4,8 @@
 #include "app/panel/panel_model.h"
 #include "interaction/commands.h"
 
+#include <imgui.h>
+
 namespace isochron::app {
 
 /// Lays it out across the section. A press near a line takes that surface's line; elsewhere it takes
@@ -12,5 +14,7 @@ void histogram(const PanelModel& model, interaction::Commands& commands);
 
 /// The color of a surface, so that its line and swatch are seen on the panel.
 ImU32 line_color(const interaction::Isosurface& surface);
+/// Light lines have a dark rim and dark ones a light rim, so that each is seen on any columns.
+ImU32 rim_of(ImU32 color);
 
 } // namespace isochron::app

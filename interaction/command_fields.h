@@ -189,6 +189,13 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{.key = "places", .most = kMostRulerPlaces}, r.places...);
 }
 
+template <class Visit, Of<CurveDrawer>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"shown"}, r.shown...);
+    visit(Field{.key = "measure", .most = kLongestArrayName}, r.measure...);
+    visit(Field{"logarithmic"}, r.logarithmic...);
+}
+
 template <class Visit, Of<KeyFrame>... Records>
 void each_field(Visit&& visit, Records&... r) {
     visit(Field{"time", 0, kLongestFilm}, r.time...);

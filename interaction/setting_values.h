@@ -324,6 +324,14 @@ struct Ruler {
     bool operator==(const Ruler&) const = default;
 };
 
+/// The drawer of curves: a number of the shown surfaces over all steps.
+struct CurveDrawer {
+    bool shown = false;
+    std::string measure = "area"; ///< a measure's name (index/measure/measures.h), or `mark`
+    bool logarithmic = false;     ///< axis of the numbers
+    bool operator==(const CurveDrawer&) const = default;
+};
+
 /// How isovalue and time go from a key to the next one.
 enum class KeyPace : std::uint8_t {
     eased, ///< slow at the ends of a move, and without a jump of their rates between moves

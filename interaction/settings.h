@@ -72,6 +72,7 @@ struct SettingsOf {
     Holds<WrittenPictures> pictures{};
     Holds<ExportWork> exporting{};
     Holds<bool> leaving{}; ///< the program asks the user whether to quit
+    Holds<CurveDrawer> curves{};
 
     // What is shown beside the surfaces.
     Holds<Slices> slices{};
@@ -121,6 +122,7 @@ constexpr void each_setting(Visit&& visit, Records&... r) {
     visit(Field{.key = "slices", .dragged = true}, r.slices...);
     visit(Field{.key = "clip_box", .dragged = true}, r.clip_box...);
     visit(Field{.key = "marks", .most = kMostMarks}, r.marks...);
+    visit(Field{.key = "curves", .undone = false}, r.curves...);
 }
 
 template <class T>

@@ -38,6 +38,7 @@ struct MeasureArguments {
     std::uint32_t fraction = 0;
     std::vector<std::string> measures;
     std::optional<std::string> array, on_surface, crop;
+    std::vector<double> clip;
     bool pieces = false, csv = false, force = false;
 };
 
@@ -96,6 +97,8 @@ Rows measured(const MeasureArguments& arguments,
         wishes.array = array_on_surface(*file, *arguments.on_surface, "to measure on the surface");
     if (arguments.crop)
         wishes.box = box_of(*arguments.crop, info.grid);
+    if (const auto plane = plane_of(arguments.clip))
+        wishes.clip = index::CutPlane{plane->point, plane->normal};
     const std::string other =
         wishes.array ? index::ColorSource(*file, *wishes.array).array().value_unit : "";
     Rows made{.columns = {"step", "fraction", "time", "isovalue"},
@@ -263,6 +266,13 @@ void add_measure(Command& program) {
                 "Measure only the cells within a box, from one vertex of the grid to another; the "
                 "surface ends at its faces")
         .type_name("X0:X1,Y0:Y1,Z0:Z1");
+    command
+        .option("--clip", arguments->clip,
+                "Measure only what lies on one side of a plane, which is given by a point and a "
+                "normal in the coordinates of the data. The normal points to the side that is cut "
+                "away. The surface is cut without a cap; volumes are those of that side, exactly")
+        .values(6)
+        .type_name("X Y Z NX NY NZ");
     command.flag(
         "--pieces", arguments->pieces,
         "Print a row for each connected piece of a surface, the largest area first, with its "

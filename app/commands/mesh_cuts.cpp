@@ -24,20 +24,6 @@
 namespace isochron::app {
 namespace {
 
-/// The plane that `--clip` names; none without it. @throws UsageError
-std::optional<interaction::ClipPlane> plane_of(const std::vector<double>& numbers) {
-    if (numbers.empty())
-        return std::nullopt;
-    const glm::dvec3 point(numbers[0], numbers[1], numbers[2]);
-    const glm::dvec3 normal(numbers[3], numbers[4], numbers[5]);
-    const double length = glm::length(normal);
-    if (!(length > 0) || !std::isfinite(length))
-        throw UsageError(fmt::format("--clip {:g}: expected a point on the plane and its normal, "
-                                     "which is not 0: X Y Z NX NY NZ",
-                                     fmt::join(numbers, " ")));
-    return interaction::ClipPlane{true, point, normal / length};
-}
-
 /// The distance that `--simplify` names. @param cell shortest side of one, and result, in the file's
 /// unit @throws UsageError
 double distance_of(const std::string& text, double cell) {
@@ -111,6 +97,19 @@ struct Simplifying {
 };
 
 } // namespace
+
+std::optional<interaction::ClipPlane> plane_of(const std::vector<double>& numbers) {
+    if (numbers.empty())
+        return std::nullopt;
+    const glm::dvec3 point(numbers[0], numbers[1], numbers[2]);
+    const glm::dvec3 normal(numbers[3], numbers[4], numbers[5]);
+    const double length = glm::length(normal);
+    if (!(length > 0) || !std::isfinite(length))
+        throw UsageError(fmt::format("--clip {:g}: expected a point on the plane and its normal, "
+                                     "which is not 0: X Y Z NX NY NZ",
+                                     fmt::join(numbers, " ")));
+    return interaction::ClipPlane{true, point, normal / length};
+}
 
 index::VertexBox box_of(const std::string& text, const index::Grid& grid) {
     const auto numbers = whole_numbers(text, ":,");

@@ -5,6 +5,7 @@
 #include "index/surface/cell_mesh.h"
 #include "index/surface/mesh_crop.h"
 #include "index/volume/grid.h"
+#include "interaction/setting_values.h"
 
 #include <optional>
 #include <string>
@@ -28,6 +29,10 @@ struct SimplifiedBy {
 
 /// The vertices that `--crop X0:X1,Y0:Y1,Z0:Z1` names. @throws UsageError
 index::VertexBox box_of(const std::string& text, const index::Grid& grid);
+
+/// The plane that `--clip` names: a point on it and its normal. @param numbers empty: none
+/// @throws UsageError
+std::optional<interaction::ClipPlane> plane_of(const std::vector<double>& numbers);
 
 /// What is done with each mesh before it is written; null: nothing.
 /// @param grid outlives the function, as `plan` and `moved` do

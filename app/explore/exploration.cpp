@@ -365,6 +365,9 @@ void Exploration::lead(LiveLoop& live, BackgroundWork& reading) {
                   std::make_shared<PanelMovies>(movie_orders(options_, header), recording));
     if (indexing_)
         session_->panel().offer_arrays(listed(indexing_->state().others));
+    const auto cache = index::user_cache_folder();
+    session_->write_curves_to({.kept = cache ? std::optional(*cache / "curves") : std::nullopt,
+                               .tables = options_.screenshots});
     live.join(CompanionPlace::surfaces,
               std::make_shared<SurfaceMaker>(file_, options_.screenshots));
     live.join(CompanionPlace::watch,

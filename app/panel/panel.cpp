@@ -2,6 +2,7 @@
 #include "app/panel/panel.h"
 
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/curve_drawer.h"
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/messages.h"
 #include "app/panel/parts/sections.h"
@@ -144,7 +145,8 @@ void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, C
 Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages) {
     Commands commands;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const PanelLayout& layout = view.layout = layout_in(model.place, {size.x, size.y});
+    const PanelLayout& layout = view.layout =
+        layout_in(model.place, {size.x, size.y}, model.asked.curves.shown);
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left))
         view.pointed.reset();
     if (!layout.folded)
@@ -171,6 +173,11 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
         interaction::merge(commands, model.notes.empty->commands);
     end_part();
     ImGui::PopStyleVar();
+    if (model.asked.curves.shown) {
+        begin_part("###curves", layout.curves, Ink::paper);
+        curve_drawer(model, commands);
+        end_part();
+    }
     begin_part("###time", layout.time, Ink::bar);
     time_bar(model, layout.two_rows, commands);
     if (view.pointed == kSections)

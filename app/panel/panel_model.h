@@ -5,6 +5,7 @@
 #include "app/frame/empty_picture.h"
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
+#include "app/frame/step_curve.h"
 #include "index/file/read_use.h"
 #include "interaction/control_context.h"
 #include "interaction/input/actions.h"
@@ -20,6 +21,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace isochron::app {
@@ -83,6 +85,17 @@ struct PanelWork {
     const StepSurvey* survey = nullptr;         ///< survey of the shown step; null: none yet
 };
 
+/// What `CurveDrawer::measure` has for the values at the mark.
+inline constexpr std::string_view kMarkCurve = "mark";
+
+/// Numbers of the surfaces over all steps.
+struct PanelCurves {
+    std::vector<StepCurvePtr> surfaces{}; ///< of each surface; null: it is hidden, or there is none
+    StepCurvePtr mark{};                  ///< the value at the mark; null: none
+    std::string failure{};                ///< why steps could not be measured; empty: all could
+    std::function<void()> save{};         ///< writes them as a table; empty: that is not offered
+};
+
 /// A session on the same data that the user can go on with.
 struct OfferedSession {
     std::string words; ///< its name, when it was saved, and whether it is dropped next
@@ -122,6 +135,7 @@ struct PanelModel {
     PanelArrays arrays{};
     PanelColors colors{};
     PanelWork work{};
+    PanelCurves curves{};
     PanelNotes notes{};
     bool recording = false;
     MovieState movies{};

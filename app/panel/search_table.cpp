@@ -5,11 +5,13 @@
 #include "app/config/first_placement.h"
 #include "app/frame/history.h"
 #include "app/panel/parts/color_section.h"
+#include "app/panel/parts/curve_drawer.h"
 #include "app/panel/parts/sections.h"
 #include "app/panel/parts/surfaces_section.h"
 #include "app/panel/parts/time_track.h"
 #include "app/text.h"
 #include "index/export/surface_writer.h"
+#include "index/measure/measures.h"
 #include "interaction/controls/action_table.h"
 #include "interaction/navigation/axis_views.h"
 #include "interaction/navigation/navigation.h"
@@ -256,6 +258,15 @@ constexpr OtherNames kOtherNames[] = {
     {"range_first", "start frame, trim start, time range, in point, loop start"},
     {"range_last", "end frame, trim end, time range, out point, loop end"},
     {"range_all", "whole series, reset time range, all frames, full time range"},
+    {"curves", "curve, plot, graph, chart, diagram, time series, over time, plot over time, plot "
+               "selection over time, measure, measurements, integrate variables, quantities, "
+               "csv, spreadsheet, evolution, history, growth"},
+    {"curves=area", "surface area, size of the surface, area over time, how large"},
+    {"curves=volume", "volume over time, enclosed volume, how large, how big, size of the vortex, "
+                      "amount"},
+    {"curves=pieces", "connected components, connectivity, count objects, number of objects, "
+                      "number of pieces"},
+    {"curves=euler", "genus, topology, holes, handles, euler characteristic"},
     {"save_time", "bookmark, time marker, favorite, mark time, remember time"},
     {"next_time", "next marker, bookmarks"},
     {"previous_time", "previous marker, bookmarks"},
@@ -741,6 +752,24 @@ void add_tools(Lines& lines) {
     }
 }
 
+/// The drawer of curves, opened with a measure.
+void add_curves(Lines& lines) {
+    const ExplorerState& asked = lines.model().asked;
+    const auto add = [&](std::string_view measure, const std::string& words) {
+        interaction::CurveDrawer wanted = asked.curves;
+        wanted.shown = true;
+        wanted.measure = measure;
+        lines.value(fmt::format("curves={}", measure), words, &Commands::curves, wanted,
+                    asked.curves);
+    };
+    for (const index::Measure& each : index::measures())
+        if (each.unit != index::MeasureUnit::value ||
+            asked.coloring.by == interaction::ColorBy::value)
+            add(each.name, fmt::format("curve: {} over time", words_of_measure(each.name)));
+    if (asked.mark.point)
+        add(kMarkCurve, "curve: value at the mark over time");
+}
+
 Commands shown_at(const PanelModel& model, index::Instant at) {
     Commands commands;
     show(at, commands);
@@ -988,6 +1017,7 @@ std::vector<SearchLine> search_lines(const PanelModel& model) {
     add_view(lines);
     add_tools(lines);
     add_time(lines);
+    add_curves(lines);
     add_pictures(lines);
     add_data(lines);
     return lines.take();

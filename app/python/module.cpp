@@ -260,13 +260,17 @@ std::vector<std::string> names_of(const OpenRun& run) {
 /// The measures of a surface, and a row of numbers for each of its pieces.
 py::tuple measure(RunArray& array, std::int64_t step, std::int64_t fraction, double isovalue,
                   const std::optional<std::string>& on_surface, bool pieces,
-                  const std::optional<std::array<std::array<std::uint32_t, 2>, 3>>& crop) {
+                  const std::optional<std::array<std::array<std::uint32_t, 2>, 3>>& crop,
+                  const std::optional<std::array<double, 6>>& clip) {
+    std::optional<index::CutPlane> plane;
+    if (clip)
+        plane = {{(*clip)[0], (*clip)[1], (*clip)[2]}, {(*clip)[3], (*clip)[4], (*clip)[5]}};
     std::optional<index::VertexBox> box;
     if (crop) // x, y, z: the first and the last
         box = {{(*crop)[0][0], (*crop)[1][0], (*crop)[2][0]},
                {(*crop)[0][1], (*crop)[1][1], (*crop)[2][1]}};
     index::MeasuredSurface found = unlocked(
-        [&] { return array.measure({step, fraction}, isovalue, on_surface, pieces, box); });
+        [&] { return array.measure({step, fraction}, isovalue, on_surface, pieces, box, plane); });
     std::vector<double> rows;
     for (const index::MeasuredPiece& piece : found.pieces) {
         rows.insert(rows.end(), {static_cast<double>(piece.triangles), piece.area, piece.volume,
@@ -305,7 +309,7 @@ PYBIND11_MODULE(_native, module) {
         .def("mesh", &mesh, "step"_a, "fraction"_a, "isovalue"_a, "absolute"_a, "level"_a,
              "normals"_a, "values"_a)
         .def("measure", &measure, "step"_a, "fraction"_a, "isovalue"_a, "on_surface"_a, "pieces"_a,
-             "crop"_a)
+             "crop"_a, "clip"_a)
         .def("values", &values, "step"_a, "fraction"_a, "box"_a, "level"_a)
         .def("first_crossings", &first_crossings, "isovalue"_a, "blended"_a)
         .def("description", &description)

@@ -183,10 +183,11 @@ Triangles<double> RunArray::mesh(const AskedInstant& at, double isovalue, std::s
 
 index::MeasuredSurface RunArray::measure(const AskedInstant& at, double isovalue,
                                          const std::optional<std::string>& on_surface, bool pieces,
-                                         const std::optional<index::VertexBox>& box) {
+                                         const std::optional<index::VertexBox>& box,
+                                         const std::optional<index::CutPlane>& clip) {
     const index::Query asked = query(at, isovalue);
     const index::MeasureWishes wishes{
-        .array = source_called(on_surface), .box = box, .pieces = pieces};
+        .array = source_called(on_surface), .box = box, .clip = clip, .pieces = pieces};
     const auto make = [this] { return std::make_unique<index::SurfaceMeasures>(file_); };
     return measures_.with(make, [&](index::SurfaceMeasures& measures) {
         return *measures.measure(asked, wishes); // which nobody stops

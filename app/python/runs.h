@@ -102,7 +102,8 @@ class RunArray {
     /// @param on_surface name of the array to measure on the surface
     index::MeasuredSurface measure(const AskedInstant& at, double isovalue,
                                    const std::optional<std::string>& on_surface, bool pieces,
-                                   const std::optional<index::VertexBox>& box);
+                                   const std::optional<index::VertexBox>& box,
+                                   const std::optional<index::CutPlane>& clip);
     /// Stored values, x fastest; between two steps, as index::Blend stores them. Reads the chunks in
     /// which the box lies, and no others, unless the index refers to its sources.
     std::vector<std::byte> values(const AskedInstant& at, const Box& box, std::size_t level) const;

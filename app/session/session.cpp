@@ -146,7 +146,7 @@ interaction::Similarity Session::all_in_view(const Audience& audience) const {
                                                            audience.viewers.front().head);
 }
 
-PanelModel Session::panel_model(const FrameReport& report) const {
+PanelModel Session::panel_model(const FrameReport& report) {
     static const std::vector<interaction::ControlGroup> controls =
         interaction::Controls::documentation();
     const index::IndexFile& array = arrays_.shown(state_);
@@ -168,6 +168,7 @@ PanelModel Session::panel_model(const FrameReport& report) const {
                      .at_hand_steps = supply_.extractor().at_hand(),
                      .searching = supply_.extractor().busy(),
                      .survey = nothing_.survey()},
+            .curves = curves_.in_panel(state_),
             .notes = {.failure = failure(), .empty = nothing_.why()},
             .controls = controls,
             .at_hand = kinds_at_hand(!config_.devices.empty() || outputs_.headset(), note_.input),
@@ -398,6 +399,7 @@ void Session::set_wake(const std::function<void()>& wake) {
     slices_.set_wake(wake);
     picker_.set_wake(wake);
     nothing_.set_wake(wake);
+    curves_.set_wake(wake);
     outputs_.pictures().set_wake(wake);
     if (preparation_)
         preparation_->set_wake(wake);
@@ -451,6 +453,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
         picker_.set_slices({}, {});
     show_messages(supply_.take_messages());
     show_messages(slices_.take_messages());
+    curves_.update(frame, arrays_, supply_.extractor());
     panel_.lay_out_room(state_, facts, report.time);
     Picture now = pictures_.make(frame, seen(rest, heads, report));
     choice_.choose(frame, now);
@@ -483,6 +486,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
         outputs_.take_screenshots(note());
     show_messages(outputs_.pictures().messages());
     show_messages(picker_.messages());
+    show_messages(curves_.messages());
     report.extracting |= supply_.extractor().busy() || slices_.come();
     report.processor = processor_time() - worked;
     report.total = whole.lap();

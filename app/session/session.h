@@ -28,6 +28,7 @@
 #include "app/session/picker.h"
 #include "app/session/picture_maker.h"
 #include "app/session/preparation.h"
+#include "app/session/session_curves.h"
 #include "app/session/session_panel.h"
 #include "app/session/shown_arrays.h"
 #include "app/session/window_contents.h"
@@ -39,6 +40,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -183,6 +185,8 @@ class Session {
     FrameLog& log() { return log_; }
     /// The context, its driver, and the driver's features that do not work; one line for reports.
     std::string drawing() const;
+    /// Sets where curves over all steps are kept and saved; before the first frame.
+    void write_curves_to(CurveFolders folders) { curves_.write_to(std::move(folders)); }
     /// What has been read from the index since it was opened.
     index::ReadUse reading() const { return arrays_.file()->reading(); }
 
@@ -202,7 +206,7 @@ class Session {
     interaction::Similarity all_in_view(const Audience& audience) const;
     bool is_settled(const Frame& frame) const;
     bool samples_come_later() const; ///< behind what is still to be prepared
-    PanelModel panel_model(const FrameReport& report) const;
+    PanelModel panel_model(const FrameReport& report);
     FrameAnswer answer() const;
 
     Config config_;
@@ -226,6 +230,7 @@ class Session {
     PartialPictures partial_;
     SettledSamples samples_;
     NothingSeen nothing_;
+    SessionCurves curves_;
     std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
     FramePlan plan_;               ///< plan of the last frame
     std::optional<Picture> drawn_; ///< last picture

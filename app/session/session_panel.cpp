@@ -112,7 +112,8 @@ void SessionPanel::draw_alone(const Facts& facts, interaction::Seconds time) {
 
 stereo::Margins SessionPanel::covered(const ExplorerState& state) const {
     const glm::ivec2 size = outputs_.windows().first().framebuffer_size();
-    return is_flat(state) ? over_.covered(size / places(state)) : stereo::Margins{};
+    return is_flat(state) ? over_.covered(size / places(state), state.curves.shown)
+                          : stereo::Margins{};
 }
 
 float SessionPanel::text_share(const ExplorerState& state) const {

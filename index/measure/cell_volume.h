@@ -1,6 +1,7 @@
 // The part of a cell that the triangles of a surface cut off.
 #pragma once
 
+#include "index/measure/plane_cut.h"
 #include "index/surface/cell_mesh.h"
 
 #include <cstdint>
@@ -16,5 +17,9 @@ namespace isochron::index {
 /// @param of_cell the cell's case
 double share_above(std::span<const MeshVertex> vertices, std::span<const std::uint32_t> corners,
                    std::uint8_t of_cell);
+/// The share that is also on the side of a plane that is left. @param corners may be empty for a
+/// cell all of whose vertices are above @param plane that cuts the cell
+double share_above(std::span<const MeshVertex> vertices, std::span<const std::uint32_t> corners,
+                   std::uint8_t of_cell, const CellCut& plane);
 
 } // namespace isochron::index

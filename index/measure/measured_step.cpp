@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 #include <span>
 
 namespace isochron::index {
@@ -37,40 +38,83 @@ void for_each_common(std::array<std::span<const Run>, kRows> rows, F&& take) {
     }
 }
 
-/// Distances of all vertices along each axis from the first, in physical units.
-class Distances {
+/// Volumes of cells, and what a plane leaves of them: as products of distances along the axes.
+class CellVolumes {
   public:
-    explicit Distances(const Grid& grid) {
+    /// @param clip outlives this; empty: all is left
+    CellVolumes(const Grid& grid, const std::optional<PlaneCut>& clip)
+        : cells_(grid.cells()), clip_(clip) {
         for (std::size_t axis = 0; axis < 3; ++axis)
             for (std::uint32_t i = 0; i < grid.vertices[axis]; ++i)
                 along_[axis].push_back(grid.distance(static_cast<int>(axis), i));
     }
-    double between(std::size_t axis, std::uint32_t begin, std::uint32_t end) const {
-        return along_[axis][end] - along_[axis][begin];
+    const std::array<std::uint32_t, 3>& cells() const { return cells_; }
+    double whole(const std::array<std::uint32_t, 3>& at) const {
+        return side(0, at[0]) * side(1, at[1]) * side(2, at[2]);
     }
-    double cell(const std::array<std::uint32_t, 3>& at) const {
-        return between(0, at[0], at[0] + 1) * between(1, at[1], at[1] + 1) *
-               between(2, at[2], at[2] + 1);
+    /// The plane in this cell.
+    CellCut cut(const std::array<std::uint32_t, 3>& at) const {
+        const glm::dvec3& along = clip_->along();
+        return {clip_->beyond({along_[0][at[0]], along_[1][at[1]], along_[2][at[2]]}),
+                {along.x * side(0, at[0]), along.y * side(1, at[1]), along.z * side(2, at[2])}};
+    }
+    /// What is left of the cell.
+    double left(const std::array<std::uint32_t, 3>& at) const {
+        if (!clip_)
+            return whole(at);
+        const CellCut plane = cut(at);
+        constexpr std::uint8_t kAllAbove = 255;
+        return plane.leaves_nothing() ? 0
+               : plane.leaves_all()   ? whole(at)
+                                      : whole(at) * share_above({}, {}, kAllAbove, plane);
+    }
+    /// What is left of the cells of a row from `begin` to before `end`.
+    double left(std::uint32_t begin, std::uint32_t end, std::uint32_t y, std::uint32_t z) const {
+        if (!clip_)
+            return (along_[0][end] - along_[0][begin]) * side(1, y) * side(2, z);
+        // Along a row, those that are left as a whole are at one end of it.
+        const auto all = [&](std::uint32_t x) { return cut({x, y, z}).leaves_all(); };
+        std::uint32_t first = begin, last = end;
+        if (all(begin) != all(end - 1)) {
+            const auto run = std::views::iota(begin, end);
+            const bool starts = all(begin);
+            const auto middle = *std::ranges::partition_point(
+                run, [&](std::uint32_t x) { return all(x) == starts; });
+            (starts ? last : first) = middle;
+        } else if (!all(begin)) {
+            first = last = begin;
+        }
+        double sum = (along_[0][last] - along_[0][first]) * side(1, y) * side(2, z);
+        const auto nothing = [&](std::uint32_t x) { return cut({x, y, z}).leaves_nothing(); };
+        for (std::uint32_t x = last; x < end && !(nothing(x) && nothing(end - 1)); ++x)
+            sum += left({x, y, z});
+        for (std::uint32_t x = first; x > begin && !(nothing(x - 1) && nothing(begin)); --x)
+            sum += left({x - 1, y, z});
+        return sum;
     }
 
   private:
-    std::array<std::vector<double>, 3> along_;
+    double side(std::size_t axis, std::uint32_t i) const {
+        return along_[axis][i + 1] - along_[axis][i];
+    }
+
+    std::array<std::uint32_t, 3> cells_;
+    std::array<std::vector<double>, 3> along_; ///< distances of vertices from the first one
+    const std::optional<PlaneCut>& clip_;
 };
 
 /// Adds up the cells all of whose vertices are on a side.
 template <class RowsOfSide>
-double whole_cells(const Grid& grid, const Distances& distances, const RowsOfSide& row) {
-    const auto [nx, ny, nz] = grid.cells();
+double whole_cells(const CellVolumes& cells, const RowsOfSide& row) {
+    const auto [nx, ny, nz] = cells.cells();
     double volume = 0;
     for (std::uint32_t z = 0; z < nz; ++z)
-        for (std::uint32_t y = 0; y < ny; ++y) {
-            double along = 0;
+        for (std::uint32_t y = 0; y < ny; ++y)
             for_each_common<4>({row(y, z), row(y + 1, z), row(y, z + 1), row(y + 1, z + 1)},
                                [&](std::uint32_t begin, std::uint32_t end) {
-                                   along += distances.between(0, begin, end - 1);
+                                   if (end - begin > 1)
+                                       volume += cells.left(begin, end - 1, y, z);
                                });
-            volume += along * distances.between(1, y, y + 1) * distances.between(2, z, z + 1);
-        }
     return volume;
 }
 
@@ -112,26 +156,49 @@ Grid grid_of(const Grid& whole, const VertexBox& box) {
 } // namespace
 
 MeasuredStep::MeasuredStep(const IndexFile& file, const Query& query, const CellMesh& mesh,
-                           const std::optional<VertexBox>& box, bool complete,
-                           const std::stop_token& stop)
+                           const std::optional<VertexBox>& box, const std::optional<CutPlane>& clip,
+                           bool complete, const std::stop_token& stop)
     : file_(file), query_(query), whole_(mesh), box_(box),
       grid_(box ? grid_of(file.info().grid, *box) : file.info().grid), complete_(complete),
       stop_(stop) {
     if (box)
         cropped_ = cells_within(mesh, *box);
+    if (clip) {
+        clip_.emplace(*clip, grid_);
+        cut_surface();
+    }
+}
+
+std::vector<glm::dvec3> MeasuredStep::points_of_mesh() const {
+    std::vector<glm::dvec3> points;
+    points.reserve(mesh().vertices.size());
+    for (const MeshVertex& vertex : mesh().vertices) {
+        const glm::dvec3 at = position_of(vertex);
+        points.push_back(grid_.direction * glm::dvec3(grid_.distance(0, at.x),
+                                                      grid_.distance(1, at.y),
+                                                      grid_.distance(2, at.z)));
+    }
+    return points;
+}
+
+void MeasuredStep::cut_surface() {
+    const std::vector<glm::dvec3> points = points_of_mesh();
+    std::vector<double> beyond;
+    beyond.reserve(points.size());
+    for (const glm::dvec3& at : points)
+        beyond.push_back(clip_->beyond_physical(at));
+    std::vector<std::uint8_t> triangles;
+    triangles.reserve(mesh().cases.size());
+    for (const std::uint8_t of_cell : mesh().cases)
+        triangles.push_back(mesh_cases()[of_cell].triangles);
+    cut_ = cut(points, mesh().values, mesh().triangles, beyond, triangles, clip_->leaves_plane());
 }
 
 const std::vector<glm::dvec3>& MeasuredStep::points() {
-    if (!points_) {
-        points_.emplace();
-        points_->reserve(mesh().vertices.size());
-        const Grid& of = grid();
-        for (const MeshVertex& vertex : mesh().vertices) {
-            const glm::dvec3 at = position_of(vertex);
-            points_->push_back(of.direction * glm::dvec3(of.distance(0, at.x), of.distance(1, at.y),
-                                                         of.distance(2, at.z)));
-        }
-    }
+    if (clip_)
+        return cut_.points;
+    if (!points_)
+        points_ = points_of_mesh();
     return *points_;
 }
 
@@ -140,10 +207,10 @@ const std::vector<glm::dvec3>& MeasuredStep::normals() {
         const std::vector<glm::dvec3>& at = points();
         normals_.emplace();
         normals_->reserve(triangles());
-        for (std::size_t i = 0; i < mesh().triangles.size(); i += 3) {
-            const glm::dvec3& a = at[mesh().triangles[i]];
-            normals_->push_back(
-                0.5 * glm::cross(at[mesh().triangles[i + 1]] - a, at[mesh().triangles[i + 2]] - a));
+        for (std::size_t i = 0; i < corners().size(); i += 3) {
+            const glm::dvec3& a = at[corners()[i]];
+            normals_->push_back(0.5 *
+                                glm::cross(at[corners()[i + 1]] - a, at[corners()[i + 2]] - a));
         }
     }
     return *normals_;
@@ -161,7 +228,7 @@ const std::vector<double>& MeasuredStep::areas() {
 
 const MeshPieces& MeasuredStep::pieces() {
     if (!pieces_)
-        pieces_ = pieces_of(mesh(), grid(), complete_);
+        pieces_ = clip_ ? pieces_of(cut_.corners) : pieces_of(mesh(), grid(), complete_);
     return *pieces_;
 }
 
@@ -181,13 +248,14 @@ bool MeasuredStep::corner_is_above() const {
 
 const VertexSides& MeasuredStep::sides() {
     if (!sides_) {
-        sides_ = complete_ ? VertexSides::of_mesh(whole_, file_.info().grid,
+        uncut_ = complete_ ? VertexSides::of_mesh(whole_, file_.info().grid,
                                                   whole_.cases.empty() && corner_is_above())
                            : VertexSides::of_values(
                                  step_of_query(file_, query_.instant, {&query_.isovalue, 1}),
                                  query_.isovalue, stop_);
         if (box_)
-            sides_ = sides_->within(*box_, grid_);
+            uncut_ = uncut_->within(*box_, grid_);
+        sides_ = clip_ ? uncut_->left_by(*clip_) : *uncut_;
     }
     return *sides_;
 }
@@ -195,21 +263,26 @@ const VertexSides& MeasuredStep::sides() {
 const MeasuredStep::Volumes& MeasuredStep::volumes() {
     if (volumes_)
         return *volumes_;
-    const VertexSides& of = sides();
+    sides();
+    const VertexSides& of = *uncut_;
     Volumes sum;
-    const Distances distances(grid());
-    sum.above = whole_cells(grid(), distances, [&](auto y, auto z) { return of.above(y, z); });
-    sum.below = whole_cells(grid(), distances, [&](auto y, auto z) { return of.below(y, z); });
+    const CellVolumes cells(grid(), clip_);
+    sum.above = whole_cells(cells, [&](auto y, auto z) { return of.above(y, z); });
+    sum.below = whole_cells(cells, [&](auto y, auto z) { return of.below(y, z); });
     const std::array<MeshCase, 256>& cases = mesh_cases();
     const std::span<const std::uint32_t> corners = mesh().triangles;
     std::size_t first = 0;
     for (const std::uint8_t of_cell : mesh().cases) {
         const std::size_t count = std::size_t{3} * cases[of_cell].triangles;
         const auto at = cell_of_mesh(mesh().vertices[corners[first]], of_cell);
-        const double whole = distances.cell(at);
-        const double share = share_above(mesh().vertices, corners.subspan(first, count), of_cell);
+        const double whole = cells.whole(at), left = cells.left(at);
+        const auto triangles = corners.subspan(first, count);
+        const double share = left == whole ? share_above(mesh().vertices, triangles, of_cell)
+                             : left == 0
+                                 ? 0
+                                 : share_above(mesh().vertices, triangles, of_cell, cells.cut(at));
         sum.above += share * whole;
-        sum.below += (1 - share) * whole;
+        sum.below += left - share * whole;
         first += count;
     }
     const double skew = std::abs(glm::determinant(grid().direction));

@@ -3,6 +3,7 @@
 
 #include "index/file/index_file.h"
 #include "index/measure/mesh_pieces.h"
+#include "index/measure/plane_cut.h"
 #include "index/measure/vertex_sides.h"
 #include "index/surface/cell_mesh.h"
 #include "index/surface/mesh_crop.h"
@@ -13,6 +14,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -22,21 +24,31 @@ namespace isochron::index {
 class MeasuredStep {
   public:
     /// @param mesh of all active cells @param box measures its cells alone, as a grid of their own;
-    ///        none: all @param complete see `pieces_of` @param stop, file, mesh outlive this
+    ///        none: all @param clip measures what this plane leaves; none: all
+    /// @param complete see `pieces_of` @param stop, file, mesh outlive this
     MeasuredStep(const IndexFile& file, const Query& query, const CellMesh& mesh,
-                 const std::optional<VertexBox>& box, bool complete, const std::stop_token& stop);
+                 const std::optional<VertexBox>& box, const std::optional<CutPlane>& clip,
+                 bool complete, const std::stop_token& stop);
 
-    /// In the box.
-    const CellMesh& mesh() const { return box_ ? cropped_ : whole_; }
     const Grid& grid() const { return grid_; }
-    std::size_t triangles() const { return mesh().triangles.size() / 3; }
-    /// Places of the vertices in physical space, less the grid's origin.
+    /// Cells of which a part is on the surface.
+    std::uint64_t cells() const { return clip_ ? cut_.cells : mesh().cases.size(); }
+    std::uint64_t vertices() const { return clip_ ? cut_.vertices : mesh().vertices.size(); }
+    /// Three points for each triangle.
+    std::span<const std::uint32_t> corners() const {
+        return clip_ ? cut_.corners : mesh().triangles;
+    }
+    std::size_t triangles() const { return corners().size() / 3; }
+    /// The other array's at the points; empty without one.
+    std::span<const float> values() const { return clip_ ? cut_.values : mesh().values; }
+    /// In physical space, less the grid's origin. Those that no triangle has may be among them.
     const std::vector<glm::dvec3>& points();
     /// Half the cross product of two sides of each triangle: its normal, towards lower values if
     /// `Grid::direction` has a positive determinant, as long as its area.
     const std::vector<glm::dvec3>& normals();
     const std::vector<double>& areas();
     const MeshPieces& pieces();
+    /// Vertices that are cut away are on no side.
     const VertexSides& sides();
     /// Volumes of the cells that no surface cuts, and the parts of those that it does.
     struct Volumes {
@@ -47,6 +59,10 @@ class MeasuredStep {
     std::uint64_t bodies();
 
   private:
+    /// In the box, uncut.
+    const CellMesh& mesh() const { return box_ ? cropped_ : whole_; }
+    std::vector<glm::dvec3> points_of_mesh() const;
+    void cut_surface();
     bool corner_is_above() const;
 
     const IndexFile& file_;
@@ -55,12 +71,14 @@ class MeasuredStep {
     CellMesh cropped_;
     std::optional<VertexBox> box_;
     Grid grid_;
+    std::optional<PlaneCut> clip_;
+    CutSurface cut_; ///< what the plane leaves of the mesh
     bool complete_;
     const std::stop_token& stop_;
     std::optional<std::vector<glm::dvec3>> points_, normals_;
     std::optional<std::vector<double>> areas_;
     std::optional<MeshPieces> pieces_;
-    std::optional<VertexSides> sides_;
+    std::optional<VertexSides> uncut_, sides_;
     std::optional<Volumes> volumes_;
 };
 

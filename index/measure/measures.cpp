@@ -38,13 +38,13 @@ std::int64_t euler(std::uint64_t vertices, std::uint64_t triangles, std::uint64_
 
 /// The mean over the surface, weighted by areas, of the means at the corners of triangles.
 double mean(MeasuredStep& step) {
-    const CellMesh& mesh = step.mesh();
-    if (mesh.values.empty())
+    const std::span<const float> values = step.values();
+    if (values.empty())
         return kUndefined;
     double sum = 0, all = 0;
     for (std::size_t i = 0; i < step.triangles(); ++i) {
         const auto at = [&](std::size_t k) {
-            return static_cast<double>(mesh.values[mesh.triangles[3 * i + k]]);
+            return static_cast<double>(values[step.corners()[3 * i + k]]);
         };
         const double value = (at(0) + at(1) + at(2)) / 3, weight = step.areas()[i];
         if (std::isfinite(value)) {
@@ -58,15 +58,18 @@ double mean(MeasuredStep& step) {
 /// The least value on the surface, or with `sign` -1 the greatest.
 double extreme(MeasuredStep& step, double sign) {
     double found = kUndefined;
-    for (const float value : step.mesh().values)
-        if (!std::isnan(value) && !(found * sign <= value * sign))
+    if (step.values().empty())
+        return found;
+    for (const std::uint32_t corner : step.corners())
+        if (const float value = step.values()[corner];
+            !std::isnan(value) && !(found * sign <= value * sign))
             found = value;
     return found;
 }
 
 constexpr std::array<Measure, 11> kMeasures{{
     {"cells", MeasureUnit::none, "active cells: least < isovalue <= greatest of the 8 vertices",
-     [](MeasuredStep& step) { return static_cast<double>(step.mesh().cases.size()); }},
+     [](MeasuredStep& step) { return static_cast<double>(step.cells()); }},
     {"area", MeasureUnit::area, "sum of the areas of the surface's triangles", area},
     {"volume", MeasureUnit::volume,
      "volume where the value is at least the isovalue, over the cells without a missing vertex",
@@ -81,8 +84,7 @@ constexpr std::array<Measure, 11> kMeasures{{
      [](MeasuredStep& step) { return static_cast<double>(step.bodies()); }},
     {"euler", MeasureUnit::none, "Euler number of the surface: vertices - edges + triangles",
      [](MeasuredStep& step) {
-         return static_cast<double>(
-             euler(step.mesh().vertices.size(), step.triangles(), border_edges(step)));
+         return static_cast<double>(euler(step.vertices(), step.triangles(), border_edges(step)));
      }},
     {"border-edges", MeasureUnit::none,
      "edges of the surface that one triangle has: at the grid's border or a missing value; 0: "
@@ -98,7 +100,7 @@ constexpr std::array<Measure, 11> kMeasures{{
 std::vector<MeasuredPiece> measured_pieces(MeasuredStep& step) {
     const MeshPieces& pieces = step.pieces();
     const std::vector<glm::dvec3>&points = step.points(), &normals = step.normals();
-    const CellMesh& mesh = step.mesh();
+    const std::span<const std::uint32_t> corners = step.corners();
     const glm::dvec3 origin = step.grid().origin;
     // Towards lower values, whichever way the grid's axes turn.
     const double outwards = glm::determinant(step.grid().direction) < 0 ? -1 : 1;
@@ -116,7 +118,7 @@ std::vector<MeasuredPiece> measured_pieces(MeasuredStep& step) {
         Sums& sum = sums[number];
         glm::dvec3 middle(0.0);
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t corner = mesh.triangles[3 * i + k];
+            const std::uint32_t corner = corners[3 * i + k];
             const glm::dvec3& at = points[corner];
             middle += at / 3.0;
             sum.low = glm::min(sum.low, at);
@@ -126,7 +128,7 @@ std::vector<MeasuredPiece> measured_pieces(MeasuredStep& step) {
         }
         ++piece.triangles;
         piece.area += step.areas()[i];
-        piece.volume += outwards * glm::dot(normals[i], points[mesh.triangles[3 * i]]) / 3;
+        piece.volume += outwards * glm::dot(normals[i], points[corners[3 * i]]) / 3;
         sum.weighted += step.areas()[i] * middle;
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -182,7 +184,7 @@ std::optional<MeasuredSurface> SurfaceMeasures::measure(const Query& query,
     if (!mesh)
         return std::nullopt;
     try {
-        MeasuredStep step(*file_, query, *mesh, wishes.box, complete_, stop);
+        MeasuredStep step(*file_, query, *mesh, wishes.box, wishes.clip, complete_, stop);
         MeasuredSurface found;
         for (std::size_t i = 0; i < kMeasures.size(); ++i) {
             const bool wanted =

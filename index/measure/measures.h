@@ -8,6 +8,7 @@
 
 #include "index/file/color_source.h"
 #include "index/file/index_file.h"
+#include "index/measure/plane_cut.h"
 #include "index/search/surface_mesh.h"
 #include "index/surface/mesh_crop.h"
 #include "index/volume/query.h"
@@ -66,6 +67,9 @@ struct MeasureWishes {
     std::optional<std::size_t> array = std::nullopt; ///< an array on the surface (ColorSource)
     /// Measures the cells in this box alone, as if there were no others: a surface ends at its faces.
     std::optional<VertexBox> box = std::nullopt;
+    /// Measures what this plane leaves: the surface, with an edge where it is cut and no cap; volumes
+    /// on its side, exactly; vertices that are not beyond it.
+    std::optional<CutPlane> clip = std::nullopt;
     bool pieces = false;
     /// Numbers of the measures that are wanted; the others are NaN. Empty: all.
     std::vector<std::size_t> only = {};

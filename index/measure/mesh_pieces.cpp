@@ -59,21 +59,22 @@ MeshPieces by_vertices(const CellMesh& mesh, const Grid& grid) {
     return pieces;
 }
 
-MeshPieces by_edges(const CellMesh& mesh) {
+} // namespace
+
+MeshPieces pieces_of(std::span<const std::uint32_t> corners) {
     struct Side {
         std::uint32_t low, high, triangle;
     };
     std::vector<Side> sides;
-    sides.reserve(mesh.triangles.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    sides.reserve(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
         const std::size_t first = i / 3 * 3;
-        const auto [low, high] =
-            std::minmax(mesh.triangles[i], mesh.triangles[first + (i - first + 1) % 3]);
+        const auto [low, high] = std::minmax(corners[i], corners[first + (i - first + 1) % 3]);
         sides.push_back({low, high, static_cast<std::uint32_t>(i / 3)});
     }
     const auto edge = [](const Side& side) { return std::pair(side.low, side.high); };
     std::ranges::sort(sides, {}, edge);
-    const std::size_t triangles = mesh.triangles.size() / 3;
+    const std::size_t triangles = corners.size() / 3;
     DisjointSets sets(triangles);
     std::vector<std::uint32_t> alone; ///< triangles of edges that no other has
     for (std::size_t i = 0, end; i < sides.size(); i = end) {
@@ -89,10 +90,8 @@ MeshPieces by_edges(const CellMesh& mesh) {
     return pieces;
 }
 
-} // namespace
-
 MeshPieces pieces_of(const CellMesh& mesh, const Grid& grid, bool complete) {
-    return complete ? by_vertices(mesh, grid) : by_edges(mesh);
+    return complete ? by_vertices(mesh, grid) : pieces_of(mesh.triangles);
 }
 
 } // namespace isochron::index

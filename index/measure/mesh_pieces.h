@@ -5,6 +5,7 @@
 #include "index/volume/grid.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace isochron::index {
@@ -21,5 +22,7 @@ struct MeshPieces {
 /// @param complete whether the mesh is of all active cells of a step in which no value is missing:
 ///        then vertices tell what the edges would, in a tenth of the time
 MeshPieces pieces_of(const CellMesh& mesh, const Grid& grid, bool complete);
+/// @param corners of triangles, three each
+MeshPieces pieces_of(std::span<const std::uint32_t> corners);
 
 } // namespace isochron::index

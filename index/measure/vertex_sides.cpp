@@ -8,6 +8,7 @@
 #include <array>
 #include <cstring>
 #include <numeric>
+#include <ranges>
 
 namespace isochron::index {
 
@@ -177,6 +178,35 @@ VertexSides VertexSides::within(const VertexBox& box, const Grid& part) const {
     };
     for (std::uint32_t z = box.first[2]; z <= box.last[2]; ++z)
         for (std::uint32_t y = box.first[1]; y <= box.last[1]; ++y) {
+            add(above(y, z), sides.above_);
+            add(below(y, z), sides.below_);
+            sides.end_row();
+        }
+    return sides;
+}
+
+VertexSides VertexSides::left_by(const PlaneCut& plane) const {
+    VertexSides sides(grid_);
+    const auto places = std::views::iota(0u, grid_.vertices[0]);
+    for (std::uint32_t z = 0; z < grid_.vertices[2]; ++z)
+        for (std::uint32_t y = 0; y < grid_.vertices[1]; ++y) {
+            const auto is_left = [&](std::uint32_t x) {
+                return plane.beyond(
+                           {grid_.distance(0, x), grid_.distance(1, y), grid_.distance(2, z)}) <= 0;
+            };
+            // Along a row, those that are left are at one end of it.
+            const bool starts = is_left(0);
+            const auto end = static_cast<std::uint32_t>(
+                std::ranges::partition_point(
+                    places, [&](std::uint32_t x) { return is_left(x) == starts; }) -
+                places.begin());
+            const Run left = starts ? Run{0, end} : Run{end, grid_.vertices[0]};
+            const auto add = [&](std::span<const Run> runs, Rows& to) {
+                for (const Run& run : runs)
+                    if (std::max(run.begin, left.begin) < std::min(run.end, left.end))
+                        to.runs.push_back(
+                            {std::max(run.begin, left.begin), std::min(run.end, left.end)});
+            };
             add(above(y, z), sides.above_);
             add(below(y, z), sides.below_);
             sides.end_row();

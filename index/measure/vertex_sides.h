@@ -6,6 +6,7 @@
 #pragma once
 
 #include "index/file/step_view.h"
+#include "index/measure/plane_cut.h"
 #include "index/surface/cell_mesh.h"
 #include "index/surface/mesh_crop.h"
 #include "index/volume/grid.h"
@@ -49,6 +50,9 @@ class VertexSides {
     /// Those in a box of vertices, seen for themselves: they count from 0.
     /// @param part the grid of the box
     VertexSides within(const VertexBox& box, const Grid& part) const;
+
+    /// Those that a plane leaves; the others are on neither side.
+    VertexSides left_by(const PlaneCut& plane) const;
 
     bool operator==(const VertexSides&) const = default;
 

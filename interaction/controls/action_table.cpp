@@ -306,6 +306,13 @@ std::vector<KeyLine> all_lines() {
     add(stamp, "stamp", 31, {'M'}, kQuiet);
     line("Tab", "panel on, off");
     add(panel, "panel", 32, {Key::tab}, kQuiet, "", toggle<&Settings::panel, &Commands::panel>);
+    line("Ctrl + D", "drawer of curves: area, volume, pieces over all steps: on, off");
+    add(curves, "curves", kNoOldBit, {{'D', kCtrl}}, kQuiet,
+        "curves over all steps: area, volume, pieces of the surfaces", [](const Press& p) {
+            CurveDrawer drawer = p.context.settings.curves;
+            drawer.shown = !drawer.shown;
+            p.commands.curves = drawer;
+        });
     line("Y", "panel in the room, beside the data: on, off");
     add(room_panel, "room_panel", 44, {'Y'}, kQuiet);
     line("Enter", "pick the surface under the cursor, or where the wand points");

@@ -105,6 +105,7 @@ enum class Action : std::uint8_t {
     slice_forward,
     slice_back,
     slices_alone,
+    curves,
     count
 };
 /// Each tool can be chosen, too: those actions follow the others.

@@ -2,6 +2,7 @@
 #include "app/panel/parts/histogram.h"
 
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/plot_zoom.h"
 #include "app/panel/parts/theme.h"
 #include "app/scene/ticks.h"
 #include "app/text.h"
@@ -43,21 +44,6 @@ struct Plot {
         return std::lerp(
             first, last,
             static_cast<double>(std::clamp((x - low.x) / (high.x - low.x), 0.0f, 1.0f)));
-    }
-};
-
-/// The part of the range that is seen, as shares of it.
-struct Zoom {
-    float low = 0.0f, high = 1.0f;
-
-    bool is_whole() const { return low <= 0.0f && high >= 1.0f; }
-    /// Nearer or farther about a place in the plot. @param at 0 to 1
-    void turn(float notches, float at) {
-        constexpr float kNotch = 1.25f, kNearest = 1.0f / 128;
-        const float width = std::clamp((high - low) / std::pow(kNotch, notches), kNearest, 1.0f);
-        const float middle = std::lerp(low, high, at);
-        low = std::clamp(middle - at * width, 0.0f, 1.0f - width);
-        high = low + width;
     }
 };
 
@@ -111,13 +97,6 @@ void axis(const Plot& plot, const std::string& unit) {
         list.AddText({left, y}, packed(Ink::dim), text.c_str());
         taken = left + width + 8.0f;
     }
-}
-
-/// Light lines have a dark rim and dark ones a light rim, so that each is seen on any columns.
-ImU32 rim_of(ImU32 color) {
-    const ImVec4 c = ImGui::ColorConvertU32ToFloat4(color);
-    const bool light = 0.3f * c.x + 0.59f * c.y + 0.11f * c.z > 0.45f;
-    return light ? IM_COL32(20, 22, 26, 230) : IM_COL32(240, 242, 245, 230);
 }
 
 void line_at(const Plot& plot, double value, ImU32 color, bool picked) {
@@ -196,6 +175,12 @@ std::vector<std::uint64_t> column_counts(const PanelModel& model) {
     if (!bins.empty()) // of the highest number alone
         counts.push_back(bins.back());
     return counts;
+}
+
+ImU32 rim_of(ImU32 color) {
+    const ImVec4 c = ImGui::ColorConvertU32ToFloat4(color);
+    const bool light = 0.3f * c.x + 0.59f * c.y + 0.11f * c.z > 0.45f;
+    return light ? IM_COL32(20, 22, 26, 230) : IM_COL32(240, 242, 245, 230);
 }
 
 ImU32 line_color(const interaction::Isosurface& surface) {

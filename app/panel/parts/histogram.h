@@ -21,5 +21,7 @@ std::vector<std::uint64_t> column_counts(const PanelModel& model);
 
 /// The color of a surface, so that its line and swatch are seen on the panel.
 ImU32 line_color(const interaction::Isosurface& surface);
+/// Light lines have a dark rim and dark ones a light rim, so that each is seen on any columns.
+ImU32 rim_of(ImU32 color);
 
 } // namespace isochron::app

@@ -43,16 +43,17 @@ constexpr std::array<const char*, static_cast<std::size_t>(Icon::count)> kPaths{
     "O 12 12 4.5 M 12 1.5 L 12 4.5 M 12 19.5 L 12 22.5 M 1.5 12 L 4.5 12 M 19.5 12 "     // view
     "L 22.5 12 M 4.6 4.6 L 6.7 6.7 M 17.3 17.3 L 19.4 19.4 M 4.6 19.4 L 6.7 17.3 "
     "M 17.3 6.7 L 19.4 4.6",
-    "M 12 3 L 12 21 M 9 7 L 3 12 L 9 17 F M 15 7 L 21 12 L 15 17 Z",             // flip
-    "M 5 7 L 19 7 M 9 7 L 9 4 L 15 4 L 15 7 M 7 7 L 8 20 L 16 20 L 17 7",        // remove
-    "M 3 12 L 21 12 M 7 8 L 3 12 L 7 16 M 17 8 L 21 12 L 17 16",                 // to_and_fro
-    "O 9 12 6 O 15 12 6",                                                        // blend
-    "M 7 21 L 7 4 M 7 4 L 18 7 L 7 11",                                          // bookmark
-    "M 14 21 L 14 4 M 14 4 L 22 7 L 14 11 M 9 10 L 3 15 L 9 20",                 // bookmark_back
-    "M 4 21 L 4 4 M 4 4 L 12 7 L 4 11 M 15 10 L 21 15 L 15 20",                  // bookmark_forward
-    "M 12 20 L 12 5 M 6 11 L 12 5 L 18 11",                                      // up
-    "M 4 12 L 19 12 M 13 6 L 19 12 L 13 18",                                     // go
-    "M 10 5 L 4 5 L 4 20 L 19 20 L 19 14 M 11 13 L 21 3 M 14 3 L 21 3 L 21 10"}; // send
+    "M 12 3 L 12 21 M 9 7 L 3 12 L 9 17 F M 15 7 L 21 12 L 15 17 Z",            // flip
+    "M 5 7 L 19 7 M 9 7 L 9 4 L 15 4 L 15 7 M 7 7 L 8 20 L 16 20 L 17 7",       // remove
+    "M 3 12 L 21 12 M 7 8 L 3 12 L 7 16 M 17 8 L 21 12 L 17 16",                // to_and_fro
+    "O 9 12 6 O 15 12 6",                                                       // blend
+    "M 7 21 L 7 4 M 7 4 L 18 7 L 7 11",                                         // bookmark
+    "M 14 21 L 14 4 M 14 4 L 22 7 L 14 11 M 9 10 L 3 15 L 9 20",                // bookmark_back
+    "M 4 21 L 4 4 M 4 4 L 12 7 L 4 11 M 15 10 L 21 15 L 15 20",                 // bookmark_forward
+    "M 12 20 L 12 5 M 6 11 L 12 5 L 18 11",                                     // up
+    "M 4 12 L 19 12 M 13 6 L 19 12 L 13 18",                                    // go
+    "M 10 5 L 4 5 L 4 20 L 19 20 L 19 14 M 11 13 L 21 3 M 14 3 L 21 3 L 21 10", // send
+    "M 3 3 L 3 20 L 22 20 M 6 15 L 10 8 L 14 12 L 21 4"};                       // curves
 
 /// Draws the steps of one path.
 struct Pen {

@@ -43,6 +43,7 @@ enum class Icon : std::uint8_t {
     up,
     go,
     send,
+    curves,
     count
 };
 

@@ -1,4 +1,4 @@
-// Where the parts of the panel lie: bars above and below, the column of sections, the picture.
+// Where the parts of the panel lie.
 #include "app/panel/parts/panel_layout.h"
 
 #include <algorithm>
@@ -13,9 +13,15 @@ constexpr float kOneRow = 560.0f;      ///< width of the bar of the time, at lea
 /// Bar at the top of the panel in the room, by which a hand carries it.
 constexpr float kTitle = 24.0f;
 
+/// Height of the drawer of curves. @param height between the bars
+float drawer_height(float height) {
+    constexpr float kShare = 0.32f, kLow = 150.0f, kHigh = 260.0f;
+    return std::min(std::clamp(kShare * height, kLow, kHigh), height / 2);
+}
+
 } // namespace
 
-PanelLayout layout_in(PanelPlace place, glm::vec2 size) {
+PanelLayout layout_in(PanelPlace place, glm::vec2 size, bool curves) {
     PanelLayout layout;
     layout.two_rows = size.x < kOneRow;
     const bool over = place == PanelPlace::over;
@@ -25,8 +31,11 @@ PanelLayout layout_in(PanelPlace place, glm::vec2 size) {
     const float right = !over ? size.x : std::min(layout.folded ? kIcons : kColumn, size.x);
     layout.top = {{0.0f, above}, {size.x, above + kTop}};
     layout.time = {{0.0f, below}, size};
-    layout.column = {{0.0f, above + kTop}, {right, below}};
-    layout.picture = {{right, above + kTop}, {size.x, below}};
+    // Beside the column the drawer takes its height from the picture, else from the column.
+    const float free = curves ? below - drawer_height(below - above - kTop) : below;
+    layout.column = {{0.0f, above + kTop}, {right, over ? below : free}};
+    layout.curves = {{over ? right : 0.0f, free}, {size.x, below}};
+    layout.picture = {{right, above + kTop}, {size.x, over ? free : below}};
     return layout;
 }
 

@@ -221,6 +221,17 @@ def crop_box(crop: Crop | None, shape: tuple[int, ...]) -> list[tuple[int, int]]
     return box
 
 
+def clip_plane(clip: Sequence[Number] | None) -> list[float] | None:
+    """A point on the plane and its normal, which is made 1 long."""
+    if clip is None:
+        return None
+    found = numbers(clip, "clip", 6)
+    length = math.hypot(*found[3:])
+    if not 0 < length < math.inf:
+        raise ArgumentError(f"clip: expected a point on the plane and its normal, which is not 0, got {clip!r}")
+    return found[:3] + [each / length for each in found[3:]]
+
+
 def steps_word(steps: Steps, length: int | None) -> str:
     """FIRST:LAST:STRIDE, both ends included."""
     if isinstance(steps, str):

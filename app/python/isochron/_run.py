@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from . import _native
-from ._arguments import Crop, Isovalues, Number, Steps, T, Time, crop_box, moment, number, several, span, time_number, whole
+from ._arguments import (
+    Crop, Isovalues, Number, Steps, T, Time, clip_plane, crop_box, moment, number, several, span, time_number, whole,
+)  # fmt: skip
 from ._errors import ArgumentError, Error, PlaceError, in_parameters, missing
 from ._html import table
 from ._mesh import Mesh
@@ -301,6 +303,7 @@ class Run:
         array: str | None = None,
         on_surface: str | None = None,
         crop: Crop | None = None,
+        clip: Sequence[Number] | None = None,
     ) -> dict[str, float]:
         """Numbers of the surface: area, volume, pieces and more, by their names.
 
@@ -310,9 +313,11 @@ class Run:
         isovalue, step, time, fraction: as for `cells`.
         on_surface: the name of another array, for `mean`, `least` and `greatest` on the surface.
         crop: vertices as for `build`: only the cells among them are measured, as if there were no others.
+        clip: (x, y, z, nx, ny, nz): only what is not beyond the plane in this point, where the normal points to: the
+            surface, cut without a cap, and volumes, exactly.
         """
         at, box = moment(self, step, fraction, time), crop_box(crop, self.shape[1:])
-        found, _ = self._array(array).measure(*at, number(isovalue, "isovalue"), on_surface, False, box)
+        found, _ = self._array(array).measure(*at, number(isovalue, "isovalue"), on_surface, False, box, clip_plane(clip))
         return dict(zip(_measures(), found))
 
     def measures(
@@ -323,13 +328,14 @@ class Run:
         array: str | None = None,
         on_surface: str | None = None,
         crop: Crop | None = None,
+        clip: Sequence[Number] | None = None,
     ) -> NDArray[np.void]:
         """`measure` of each step: a structured array with the fields step, time and those of `measure`.
 
         steps: one, a slice or a range; None: all.
         """
         first, last, stride = span(slice(None) if steps is None else steps, "steps", len(self))
-        how: dict[str, Any] = {"array": array, "on_surface": on_surface, "crop": crop}
+        how: dict[str, Any] = {"array": array, "on_surface": on_surface, "crop": crop, "clip": clip}
         rows = [
             (step, float(self.times[step]), *self.measure(isovalue, step, **how).values())
             for step in range(first, last + 1, stride)
@@ -346,6 +352,7 @@ class Run:
         fraction: Number | None = None,
         array: str | None = None,
         crop: Crop | None = None,
+        clip: Sequence[Number] | None = None,
     ) -> NDArray[np.void]:
         """The connected pieces of the surface, the largest area first: a structured array.
 
@@ -353,7 +360,7 @@ class Run:
         euler, closed (1 or 0), and x, y, z each of centroid (weighted by area), low and high (its extent).
         """
         at, box = moment(self, step, fraction, time), crop_box(crop, self.shape[1:])
-        _, rows = self._array(array).measure(*at, number(isovalue, "isovalue"), None, True, box)
+        _, rows = self._array(array).measure(*at, number(isovalue, "isovalue"), None, True, box, clip_plane(clip))
         place = (np.float64, 3)
         kind = np.dtype([
             ("triangles", np.float64), ("area", np.float64), ("volume", np.float64), ("euler", np.float64),

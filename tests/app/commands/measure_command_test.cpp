@@ -65,6 +65,27 @@ TEST_F(MeasureCommand, PrintsARowForEachStepAndIsovalue) {
                                 rows[2].at("pieces").dump()));
 }
 
+TEST_F(MeasureCommand, MeasuresBothSidesOfAPlane) {
+    build();
+    const auto found = [&](const std::vector<std::string>& clip) {
+        std::vector<std::string> all{"--isovalue", "0.1", "--steps", "2", "--json"};
+        all.insert(all.end(), clip.begin(), clip.end());
+        return nlohmann::json::parse(measure(all).out).at("rows")[0];
+    };
+    const auto whole = found({}), left = found({"--clip", "3", "3", "3", "1", "-2", "0.5"}),
+               right = found({"--clip", "3", "3", "3", "-1", "2", "-0.5"});
+    for (const char* const name : {"area", "volume", "volume-below"}) {
+        EXPECT_GT(left.at(name).get<double>(), 0) << name;
+        EXPECT_NEAR(left.at(name).get<double>() + right.at(name).get<double>(),
+                    whole.at(name).get<double>(), 1e-9 * whole.at(name).get<double>())
+            << name;
+    }
+    const ChildResult wrong =
+        measure({"--isovalue", "0.1", "--clip", "3", "3", "3", "0", "0", "0"});
+    EXPECT_NE(wrong.status, 0);
+    EXPECT_THAT(wrong.err, HasSubstr("--clip 3 3 3 0 0 0: expected a point on the plane"));
+}
+
 TEST_F(MeasureCommand, PiecesAddUpToTheSurface) {
     build();
     const auto rows_of = [&](const std::vector<std::string>& more) {

@@ -39,6 +39,7 @@ class LayerTest : public testing::Test {
                                .frame = report_,
                                .gaps = gaps_,
                                .arrays = arrays_,
+                               .curves = curves_,
                                .notes = notes_,
                                .movies = {.offered = true},
                                .sessions = sessions_,
@@ -110,6 +111,7 @@ class LayerTest : public testing::Test {
     FrameReport report_;
     std::vector<std::uint32_t> gaps_;
     PanelArrays arrays_;
+    PanelCurves curves_;
     PanelNotes notes_;
     std::vector<OfferedSession> sessions_;
     std::function<std::optional<interaction::Pointed>()> pointed_;

@@ -8,6 +8,7 @@
 
 #include <set>
 #include <string>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -15,29 +16,41 @@ namespace {
 using interaction::Action;
 
 double share_of_picture(glm::vec2 size) {
-    const glm::vec2 picture = layout_in(PanelPlace::over, size).picture.size();
+    const glm::vec2 picture = layout_in(PanelPlace::over, size, false).picture.size();
     return double(picture.x) * double(picture.y) / (double(size.x) * double(size.y));
 }
 
 TEST(PanelLayout, LeavesMostOfTheWindowToThePicture) {
     EXPECT_GE(share_of_picture({1280, 800}), 0.68);
     EXPECT_GE(share_of_picture({640, 480}), 0.60);
-    EXPECT_FALSE(layout_in(PanelPlace::over, {1280, 800}).folded);
-    EXPECT_TRUE(layout_in(PanelPlace::over, {640, 480}).folded);
+    EXPECT_FALSE(layout_in(PanelPlace::over, {1280, 800}, false).folded);
+    EXPECT_TRUE(layout_in(PanelPlace::over, {640, 480}, false).folded);
 }
 
 TEST(PanelLayout, FillsThePanelWithoutGapsOrOverlaps) {
-    for (const PanelPlace place : {PanelPlace::over, PanelPlace::whole, PanelPlace::in_room})
+    for (const auto& [place, curves] : {std::pair(PanelPlace::over, false),
+                                        {PanelPlace::over, true},
+                                        {PanelPlace::whole, false},
+                                        {PanelPlace::whole, true},
+                                        {PanelPlace::in_room, false},
+                                        {PanelPlace::in_room, true}})
         for (const glm::vec2 size : {glm::vec2(300, 240), glm::vec2(400, 540), glm::vec2(640, 480),
                                      glm::vec2(1280, 720), glm::vec2(1280, 800)}) {
-            SCOPED_TRACE(testing::Message() << int(place) << ' ' << size.x << ' ' << size.y);
-            const PanelLayout layout = layout_in(place, size);
+            SCOPED_TRACE(testing::Message()
+                         << int(place) << curves << ' ' << size.x << ' ' << size.y);
+            const PanelLayout layout = layout_in(place, size, curves);
+            const bool over = place == PanelPlace::over;
             EXPECT_EQ(layout.top.high.y, layout.column.low.y);
-            EXPECT_EQ(layout.column.high.y, layout.time.low.y);
+            EXPECT_EQ(layout.column.high.y, over ? layout.time.low.y : layout.curves.low.y);
+            EXPECT_EQ(layout.curves.high, glm::vec2(size.x, layout.time.low.y));
+            EXPECT_EQ(layout.curves.low.x, over ? layout.column.high.x : 0);
+            EXPECT_EQ(layout.curves.size().y > 0, curves);
+            EXPECT_LE(layout.curves.size().y, (layout.time.low.y - layout.top.high.y) / 2);
             EXPECT_EQ(layout.time.high, size);
             EXPECT_EQ(layout.column.high.x, layout.picture.low.x);
-            EXPECT_EQ(layout.picture.high, glm::vec2(size.x, layout.time.low.y));
-            EXPECT_EQ(layout.picture.size().x > 0, place == PanelPlace::over);
+            EXPECT_EQ(layout.picture.high,
+                      glm::vec2(size.x, over ? layout.curves.low.y : layout.time.low.y));
+            EXPECT_EQ(layout.picture.size().x > 0, over);
         }
 }
 

@@ -51,6 +51,21 @@ class Measures(SeriesTest):
         with self.assertRaisesRegex(isochron.Error, "crop: expected vertices from 0 to"):
             run.measure(isovalue, 1, crop="0:1,0:1,5:99")
 
+    def test_of_both_sides_of_a_plane_add_up(self):
+        run, isovalue = self.run_, float(np.median(self.run_.values(1)))
+        point = run.origin + run.spacing[::-1] * (np.array(run.shape[:0:-1]) - 1) * 0.4
+        plane = np.array([*point, 0.3, -0.5, 0.4])
+        left, other = (run.measure(isovalue, 1, clip=[*point, *(side * plane[3:])]) for side in (1, -1))
+        whole = run.measure(isovalue, 1)
+        for name in ("area", "volume", "volume_below"):
+            self.assertGreater(left[name], 0)
+            self.assertAlmostEqual(left[name] + other[name], whole[name], delta=1e-9 * whole[name])
+        self.assertEqual(run.measures(isovalue, 1, clip=plane)["area"][0], left["area"])
+        self.assertEqual(len(run.pieces(isovalue, 1, clip=plane)), left["pieces"])
+        for wrong in ([1, 2, 3], [0, 0, 0, 0, 0, 0], [0, 0, 0, np.nan, 0, 1]):
+            with self.assertRaisesRegex(isochron.Error, "clip: expected"):
+                run.measure(isovalue, 1, clip=wrong)
+
     def test_of_pieces_add_up(self):
         run, isovalue = self.run_, float(np.median(self.run_.values(1)))
         pieces, found = run.pieces(isovalue, 1), run.measure(isovalue, 1)

@@ -472,5 +472,111 @@ TEST_F(MeasuresTest, AreStopped) {
                      .measure({Instant(0), 0.0}, {}, stop.get_token()));
 }
 
+/// A plane through the middle third of a grid's box, turned at random.
+CutPlane plane_through(const Grid& grid, std::mt19937& random) {
+    const auto within = [&](double low, double high) {
+        return low + (high - low) * std::generate_canonical<double, 32>(random);
+    };
+    std::array<double, 3> at{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        at[axis] = within(0.3, 0.7) * (grid.vertices[axis] - 1);
+    return {grid.physical({at[0], at[1], at[2]}),
+            glm::normalize(glm::dvec3(within(-1, 1), within(-1, 1), within(-1, 1)))};
+}
+
+CutPlane opposite(CutPlane plane) {
+    plane.normal = -plane.normal;
+    return plane;
+}
+
+TEST_F(MeasuresTest, OfBothSidesOfAPlaneAddUpToTheWhole) {
+    for (int round = 0; round < 40; ++round) {
+        const Vertices n{15, 12, 17};
+        TestField field(n, 1, kAllTypes[static_cast<std::size_t>(round) % kAllTypes.size()],
+                        round % 2 ? scaled(white_noise(random_), 100, 10)
+                                  : scaled(turbulence(random_), 100, 10));
+        const bool gaps = round % 3 == 0 && field.view().type == ValueType::f32;
+        for (std::size_t i = 0; gaps && i < std::size_t{15} * 12 * 17; ++i)
+            if (random_() % 30 == 0)
+                field.at<float>(0, i) = static_cast<float>(kNaN);
+        const Grid grid = placed(n, round % 4 == 0, random_);
+        const auto file = indexed_at(field.view(), grid);
+        SurfaceMeasures measuring(file);
+        const Query query{Instant(0), ties(field.view(), 3)[1]};
+        CutPlane plane = plane_through(grid, random_);
+        if (round % 5 == 0) // across an axis, through vertices
+            plane = {grid.physical({7, 6, 8}),
+                     glm::normalize(glm::cross(grid.direction[0], grid.direction[1]))};
+        const MeasuredSurface whole = *measuring.measure(query);
+        const MeasuredSurface left = *measuring.measure(query, {.clip = plane, .pieces = true});
+        const MeasuredSurface cut_off = *measuring.measure(query, {.clip = opposite(plane)});
+        for (const char* const name : {"area", "volume", "volume-below"}) {
+            SCOPED_TRACE(name);
+            const double all = value_of(whole, name);
+            EXPECT_NEAR(value_of(left, name) + value_of(cut_off, name), all, 1e-9 * all);
+        }
+        double area = 0;
+        for (const MeasuredPiece& piece : left.pieces)
+            area += piece.area;
+        EXPECT_NEAR(area, value_of(left, "area"), 1e-9 * (1 + area));
+        EXPECT_EQ(value_of(left, "pieces"), static_cast<double>(left.pieces.size()));
+    }
+}
+
+TEST_F(MeasuresTest, LeftByAPlaneThroughVerticesAreThoseInTheBoxOnThatSide) {
+    for (int round = 0; round < 24; ++round) {
+        const Vertices n{17, 14, 19};
+        const TestField field(n, 1, ValueType::f32,
+                              round % 2 ? scaled(white_noise(random_), 3, 0)
+                                        : scaled(turbulence(random_), 3, 0));
+        Grid grid{.vertices = n, .origin = {100, -3, 20}, .spacing = {0.5, 2.0, 0.75}};
+        const std::size_t axis = random_() % 3;
+        const std::uint32_t at = 2 + static_cast<std::uint32_t>(random_()) % (n[axis] - 4);
+        const bool low = random_() % 2 != 0; // the side that is left
+        VertexBox box{{0, 0, 0}, {n[0] - 1, n[1] - 1, n[2] - 1}};
+        (low ? box.last : box.first)[axis] = at;
+        CutPlane plane;
+        std::array<std::uint32_t, 3> place{};
+        place[axis] = at;
+        plane.point = grid.physical({place[0], place[1], place[2]});
+        plane.normal = glm::dvec3(0);
+        plane.normal[static_cast<int>(axis)] = low ? 1 : -1;
+        SurfaceMeasures measuring(indexed_at(field.view(), grid));
+        const Query query{Instant(0), 0.05};
+        const MeasuredSurface boxed = *measuring.measure(query, {.box = box});
+        const MeasuredSurface left = *measuring.measure(query, {.clip = plane});
+        for (const Measure& each : measures()) {
+            SCOPED_TRACE(each.name);
+            const double expected = value_of(boxed, each.name);
+            if (each.unit != MeasureUnit::value) {
+                EXPECT_NEAR(value_of(left, each.name), expected, 1e-9 * std::abs(expected));
+            }
+        }
+    }
+}
+
+TEST_F(MeasuresTest, LeftOfABallByAPlaneAreThoseOfItsCap) {
+    const double pi = std::numbers::pi, radius = 14;
+    const glm::dvec3 middle(20.2, 19.7, 20.4), normal = glm::normalize(glm::dvec3(1, -2, 0.7));
+    const TestField field({41, 41, 41}, 1, ValueType::f32,
+                          [&](double x, double y, double z, double) {
+                              return radius - glm::length(glm::dvec3(x, y, z) - middle);
+                          });
+    SurfaceMeasures measuring(indexed(folder_, field.view()));
+    for (const double off : {-9.0, -3.0, 0.0, 5.5, 11.0}) {
+        const double height = radius + off; // of the cap that is left
+        const CutPlane plane{middle + off * normal, 3.0 * normal};
+        const MeasuredSurface left =
+            *measuring.measure({Instant(0), 0.0}, {.clip = plane, .pieces = true});
+        const double area = 2 * pi * radius * height;
+        EXPECT_NEAR(value_of(left, "area"), area, 0.01 * area);
+        const double volume = pi * height * height * (3 * radius - height) / 3;
+        EXPECT_NEAR(value_of(left, "volume"), volume, 0.01 * volume);
+        EXPECT_EQ(value_of(left, "euler"), 1) << "a disk";
+        ASSERT_EQ(left.pieces.size(), 1u);
+        EXPECT_FALSE(left.pieces[0].closed);
+    }
+}
+
 } // namespace
 } // namespace isochron::index

@@ -1,0 +1,351 @@
+// The drawer of curves: numbers of the shown surfaces over all steps.
+#include "app/panel/parts/curve_drawer.h"
+
+#include "app/panel/panel_words.h"
+#include "app/panel/parts/curve_plot.h"
+#include "app/panel/parts/histogram.h"
+#include "app/panel/parts/icons.h"
+#include "app/panel/parts/rows.h"
+#include "app/panel/parts/theme.h"
+#include "app/panel/parts/time_track.h"
+#include "app/text.h"
+#include "index/file/color_source.h"
+#include "index/measure/measures.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using interaction::CurveDrawer;
+
+constexpr float kWithTable = 560.0f; ///< width of a drawer that has room for the table
+
+/// A number that can be plotted.
+struct Choice {
+    std::string name;      ///< as in CurveDrawer
+    std::size_t number;    ///< of the curves' numbers
+    std::string unit, tip; ///< its unit, and what it means
+};
+
+/// A surface that has a curve.
+struct Drawn {
+    const StepCurve* curve;
+    ImU32 color;
+    std::string words; ///< its isovalue
+    bool picked;
+};
+
+/// What the drawer shows in this frame.
+struct Shown {
+    std::vector<Choice> choices;
+    std::size_t chosen = 0;
+    std::vector<Drawn> surfaces;
+
+    const Choice& choice() const { return choices[chosen]; }
+    bool is_mark() const { return choice().name == kMarkCurve; }
+};
+
+std::vector<Choice> choices_of(const PanelModel& model) {
+    std::vector<Choice> choices;
+    const auto first = std::ranges::find_if(model.curves.surfaces,
+                                            [](const auto& each) { return each != nullptr; });
+    std::optional<std::size_t> other;
+    std::string other_unit, other_name;
+    if (first != model.curves.surfaces.end() && (*first)->subject.on_surface) {
+        other = (*first)->subject.on_surface;
+        const index::ColorSource source(*(*first)->subject.array, *other);
+        other_unit = source.array().value_unit;
+        other_name = source.array().array;
+    }
+    const std::span<const index::Measure> all = index::measures();
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (all[i].unit != index::MeasureUnit::value || other)
+            choices.push_back(
+                {std::string(all[i].name), i, unit_of(all[i], model.info, other_unit),
+                 std::string(all[i].definition) + (all[i].unit == index::MeasureUnit::value
+                                                       ? fmt::format(" ({})", other_name)
+                                                       : std::string())});
+    if (model.curves.mark)
+        choices.push_back({std::string(kMarkCurve), 0, model.info.value_unit,
+                           "value at the mark, and when it crosses the isovalues"});
+    return choices;
+}
+
+Shown shown_in(const PanelModel& model) {
+    Shown shown{.choices = choices_of(model), .surfaces = {}};
+    const auto chosen = std::ranges::find(shown.choices, model.asked.curves.measure, &Choice::name);
+    const auto usual = std::ranges::find(shown.choices, CurveDrawer{}.measure, &Choice::name);
+    shown.chosen = static_cast<std::size_t>((chosen == shown.choices.end() ? usual : chosen) -
+                                            shown.choices.begin());
+    const auto& isosurfaces = model.asked.isosurfaces;
+    for (std::size_t i = 0; i < std::min(isosurfaces.size(), model.curves.surfaces.size()); ++i)
+        if (const StepCurvePtr& curve = model.curves.surfaces[i])
+            shown.surfaces.push_back({curve.get(), line_color(isosurfaces[i]),
+                                      with_unit(isosurfaces[i].isovalue, model.info.value_unit),
+                                      model.asked.picked == i});
+    return shown;
+}
+
+std::string number_text(double value, const std::string& unit) {
+    return std::isfinite(value) ? with_unit(value, unit) : "-";
+}
+
+double at_step(const StepCurve& curve, std::size_t number, std::uint32_t step) {
+    return step < curve.steps() ? curve.values[number][step] : std::nan("");
+}
+
+void choose(const PanelModel& model, const Choice& choice, Commands& commands) {
+    CurveDrawer drawer = model.asked.curves;
+    drawer.measure = choice.name;
+    commands.curves = drawer;
+}
+
+/// How far the curves are, or why they are not whole.
+void state_of(const PanelModel& model, const Shown& shown, float width) {
+    std::size_t steps = 0, left = 0;
+    const auto count = [&](const StepCurve& curve) {
+        steps = curve.steps();
+        left = std::max(left, curve.left);
+    };
+    if (shown.is_mark())
+        count(*model.curves.mark);
+    else
+        for (const Drawn& each : shown.surfaces)
+            count(*each.curve);
+    ImGui::AlignTextToFramePadding();
+    if (!model.curves.failure.empty())
+        fitted_text(model.curves.failure, width, color_of(Ink::warning));
+    else if (left > 0)
+        fitted_text(fmt::format("{} of {} steps", steps - left, steps), width, color_of(Ink::dim));
+    else if (shown.surfaces.empty() && !shown.is_mark())
+        fitted_text("no surface is shown", width, color_of(Ink::dim));
+    else
+        text("");
+}
+
+void header(const PanelModel& model, const Shown& shown, Commands& commands) {
+    constexpr float kChoice = 190.0f;
+    std::vector<std::string> words, notes;
+    const std::uint32_t now = model.asked.shown_instant().step;
+    for (const Choice& choice : shown.choices) {
+        words.push_back(words_of_measure(choice.name));
+        const StepCurve* curve = choice.name == kMarkCurve ? model.curves.mark.get() : nullptr;
+        for (const Drawn& each : shown.surfaces)
+            if (!curve || (each.picked && choice.name != kMarkCurve))
+                curve = each.curve;
+        notes.push_back(curve ? number_text(at_step(*curve, choice.number, now), choice.unit)
+                              : choice.unit);
+    }
+    const float whole = ImGui::GetContentRegionAvail().x;
+    ImGui::SetNextItemWidth(std::min(kChoice, whole / 2));
+    if (const auto chosen = choice_field("##measure", words[shown.chosen], words,
+                                         shown.choice().tip.c_str(), notes))
+        choose(model, shown.choices[*chosen], commands);
+    ImGui::SameLine();
+    const bool logarithmic = model.asked.curves.logarithmic;
+    if (ImGui::Button(logarithmic ? "log" : "lin", {36.0f, 0.0f})) {
+        commands.curves = model.asked.curves;
+        commands.curves->logarithmic = !logarithmic;
+    }
+    tip("axis of the numbers: logarithmic or linear");
+    const bool saves = model.curves.save && model.place != PanelPlace::in_room;
+    const float button = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
+    const float buttons = button + (saves ? button + gap : 0);
+    ImGui::SameLine();
+    const float end = ImGui::GetWindowContentRegionMax().x;
+    state_of(model, shown, end - buttons - gap - ImGui::GetCursorPosX());
+    ImGui::SameLine(end - buttons);
+    if (saves) {
+        if (icon_button("save curves", Icon::send,
+                        "save all measures of all steps as a table (CSV)", false, button))
+            model.curves.save();
+        ImGui::SameLine();
+    }
+    if (icon_button("close curves", Icon::close, "close the curves (Ctrl + D)", false, button)) {
+        commands.curves = model.asked.curves;
+        commands.curves->shown = false;
+    }
+}
+
+void swatch(ImU32 color) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float side = ImGui::GetFontSize() - 4.0f;
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        {corner.x, corner.y + 2.0f}, {corner.x + side, corner.y + 2.0f + side}, color, 2.0f);
+    ImGui::Dummy({side, ImGui::GetFontSize()});
+    ImGui::SameLine(0.0f, 5.0f);
+}
+
+/// What the pointed step has.
+void tip_of_step(const PanelModel& model, const Shown& shown, std::uint32_t step) {
+    ImGui::BeginTooltip();
+    text(fmt::format("step {}: {}", step + 1, time_of(model, index::Instant(step))));
+    if (shown.is_mark()) {
+        text(number_text(at_step(*model.curves.mark, 0, step), shown.choice().unit));
+    } else {
+        for (const Drawn& each : shown.surfaces) {
+            swatch(each.color);
+            text(fmt::format("{}{}", shown.surfaces.size() > 1 ? each.words + ":  " : std::string(),
+                             number_text(at_step(*each.curve, shown.choice().number, step),
+                                         shown.choice().unit)));
+        }
+    }
+    ImGui::EndTooltip();
+}
+
+void go_to(const PanelModel& model, index::Instant at, Commands& commands) {
+    if (at == model.asked.shown_instant())
+        return;
+    show(at, commands);
+    if (model.asked.playback.playing) {
+        commands.playback = model.asked.playback;
+        commands.playback->playing = false;
+    }
+}
+
+void plot(const PanelModel& model, const Shown& shown, const ImVec2& size, Commands& commands) {
+    const std::size_t steps = last_step(model) + 1;
+    PlottedCurves curves{.times = std::span(model.info.times).first(steps),
+                         .time_unit = model.info.time_unit,
+                         .unit = shown.choice().unit,
+                         .lines = {},
+                         .levels = {},
+                         .logarithmic = model.asked.curves.logarithmic,
+                         .now = model.asked.shown_instant()};
+    const auto values = [&](const StepCurve& curve) {
+        const auto& all = curve.values[shown.choice().number];
+        return std::span(all).first(std::min(all.size(), steps));
+    };
+    if (shown.is_mark()) {
+        curves.lines.push_back({values(*model.curves.mark), packed(Ink::text)});
+        for (const Drawn& each : shown.surfaces)
+            curves.levels.push_back({each.curve->subject.isovalue, each.color});
+    } else {
+        for (const Drawn& each : shown.surfaces)
+            curves.lines.push_back({values(*each.curve), each.color, each.picked});
+    }
+    const PlotUse use = curve_plot(curves, size);
+    if (!use.pointed)
+        return;
+    tip_of_step(model, shown, *use.pointed);
+    if (use.pressed)
+        go_to(model, index::Instant(*use.pointed), commands);
+}
+
+/// The numbers of the present step: a line for each measure, a column for each surface.
+void table(const PanelModel& model, const Shown& shown, const ImVec2& size, Commands& commands) {
+    constexpr float kName = 104.0f;
+    const auto columns = std::min<std::size_t>(shown.surfaces.size(), 4);
+    if (!ImGui::BeginTable("now", static_cast<int>(columns) + 1,
+                           ImGuiTableFlags_ScrollY | ImGuiTableFlags_NoSavedSettings |
+                               ImGuiTableFlags_NoPadOuterX,
+                           size))
+        return;
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, kName);
+    for (std::size_t i = 0; i < columns; ++i)
+        ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    const std::uint32_t now = model.asked.shown_instant().step;
+    fitted_text(fmt::format("step {}", now + 1), kName, color_of(Ink::dim));
+    for (std::size_t i = 0; i < columns; ++i) {
+        ImGui::TableNextColumn();
+        swatch(shown.surfaces[i].color);
+        fitted_text(shown.surfaces[i].words, ImGui::GetContentRegionAvail().x, color_of(Ink::dim));
+    }
+    for (std::size_t k = 0; k < shown.choices.size(); ++k) {
+        const Choice& choice = shown.choices[k];
+        ImGui::PushID(static_cast<int>(k));
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        if (table_line(k == shown.chosen) != LinePress::none && k != shown.chosen)
+            choose(model, choice, commands);
+        tip(choice.tip.c_str());
+        ImGui::SameLine(0.0f, 0.0f);
+        text(words_of_measure(choice.name));
+        const bool of_mark = choice.name == kMarkCurve;
+        for (std::size_t i = 0; i < columns; ++i) {
+            ImGui::TableNextColumn();
+            if (of_mark && i > 0)
+                continue;
+            const StepCurve& curve = of_mark ? *model.curves.mark : *shown.surfaces[i].curve;
+            fitted_text(number_text(at_step(curve, choice.number, now), choice.unit),
+                        ImGui::GetContentRegionAvail().x,
+                        color_of(k == shown.chosen ? Ink::text : Ink::dim));
+        }
+        ImGui::PopID();
+    }
+    ImGui::EndTable();
+}
+
+/// When the value at the mark crosses the isovalues; a press goes there.
+void crossings(const PanelModel& model, const Shown& shown, const ImVec2& size,
+               Commands& commands) {
+    ImGui::BeginChild("crossings", size);
+    const StepCurve& mark = *model.curves.mark;
+    const auto steps =
+        std::span(mark.values[0])
+            .first(std::min<std::size_t>(mark.steps(), std::size_t{last_step(model)} + 1));
+    int id = 0;
+    for (const Drawn& each : shown.surfaces) {
+        swatch(each.color);
+        const std::vector<Crossing> all = crossings_of(steps, each.curve->subject.isovalue);
+        fitted_text(all.empty() ? "never crosses " + each.words : "crosses " + each.words,
+                    ImGui::GetContentRegionAvail().x, color_of(Ink::text));
+        for (const Crossing& at : all) {
+            const index::Instant instant{
+                at.step, std::min(static_cast<std::uint32_t>(at.share * index::Instant::kFractions),
+                                  interaction::kMostFraction)};
+            ImGui::PushID(id++);
+            if (ImGui::Selectable(fmt::format("   {} {}", time_of(model, instant),
+                                              at.rises ? "rising" : "falling")
+                                      .c_str()))
+                go_to(model, model.asked.blends() ? instant : index::Instant(at.step), commands);
+            ImGui::PopID();
+        }
+    }
+    ImGui::EndChild();
+}
+
+} // namespace
+
+std::string words_of_measure(std::string_view name) {
+    if (name == kMarkCurve)
+        return "value at the mark";
+    std::string words(name);
+    std::ranges::replace(words, '-', ' ');
+    return words;
+}
+
+void curve_drawer(const PanelModel& model, Commands& commands) {
+    const Shown shown = shown_in(model);
+    header(model, shown, commands);
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const float gap = 12.0f;
+    const auto columns = static_cast<float>(std::clamp<std::size_t>(shown.surfaces.size(), 1, 4));
+    const float beside =
+        room.x >= kWithTable ? std::min(110.0f + 96.0f * columns, 0.45f * room.x) : 0.0f;
+    const ImVec2 corner = ImGui::GetCursorPos();
+    plot(model, shown, {room.x - (beside > 0 ? beside + gap : 0), room.y}, commands);
+    if (beside == 0)
+        return;
+    ImGui::SetCursorPos({corner.x + room.x - beside, corner.y});
+    if (shown.is_mark())
+        crossings(model, shown, {beside, room.y}, commands);
+    else
+        table(model, shown, {beside, room.y}, commands);
+}
+
+} // namespace isochron::app

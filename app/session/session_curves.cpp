@@ -1,0 +1,135 @@
+// The curves of a session.
+#include "app/session/session_curves.h"
+
+#include "app/end_in_time.h"
+#include "app/text.h"
+#include "index/error.h"
+#include "index/file/color_source.h"
+#include "index/system/new_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <system_error>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The number of a subject in the list, which gets it unless it has it.
+std::size_t number_of(const CurveSubject& subject, std::vector<CurveSubject>& subjects) {
+    const auto there = std::ranges::find(subjects, subject);
+    if (there != subjects.end())
+        return static_cast<std::size_t>(there - subjects.begin());
+    subjects.push_back(subject);
+    return subjects.size() - 1;
+}
+
+/// Writes a table under a name that no file has. @return what the user is told
+std::string write_table(const fs::path& folder, const std::vector<StepCurvePtr>& curves) {
+    index::make_folder(folder);
+    fs::path path;
+    std::error_code ignored;
+    for (int number = 1; number == 1 || fs::exists(fs::symlink_status(path, ignored)); ++number)
+        path = folder / fmt::format("isochron_curves_{:04}.csv", number);
+    const std::string text = csv_of(curves);
+    index::NewFile file(path);
+    file.write_at(0, std::as_bytes(std::span(text)));
+    file.commit();
+    const auto known = std::ranges::count(curves.front()->known, std::uint8_t{1});
+    return fmt::format("saved {}: {} of {} steps", whole_path(path), known,
+                       curves.front()->steps());
+}
+
+} // namespace
+
+std::optional<glm::dvec3> marked_place(const interaction::Settings& settings) {
+    return settings.mark.point ? std::optional(settings.mark.point->position) : std::nullopt;
+}
+
+void SessionCurves::set_wake(const std::function<void()>& wake) {
+    maker_.set_wake(wake);
+    writing_.set_wake(wake);
+}
+
+void SessionCurves::write_to(CurveFolders folders) {
+    if (folders.kept)
+        maker_.keep_in(KeptCurves(*folders.kept));
+    folders_ = std::move(folders);
+}
+
+void SessionCurves::update(const Frame& frame, const ShownArrays& arrays,
+                           const index::Extractor& extractor) {
+    const ExplorerState& state = frame.state;
+    // The panel over a picture is not laid out in a replay.
+    const bool seen = state.room_panel.shown || (state.panel && frame.is_live());
+    WantedCurves wanted;
+    wanted.now = state.shown_instant().step;
+    wanted.rest = true;
+    wanted.paused = frame.is_live() && extractor.busy();
+    of_surface_.assign(state.isosurfaces.size(), std::nullopt);
+    of_mark_.reset();
+    only_whole_ = state.room_panel.shown && !frame.sharing.alone();
+    if (state.curves.shown && seen) {
+        const std::shared_ptr<const index::IndexFile> array = arrays.held(state);
+        CurveSubject subject{.array = array};
+        if (state.clip.shown)
+            subject.clip = state.clip;
+        if (state.coloring.by == interaction::ColorBy::value &&
+            index::ColorSource::count(*array) > 0)
+            subject.on_surface = color_array(state, *arrays.file());
+        for (std::size_t i = 0; i < state.isosurfaces.size(); ++i) {
+            subject.isovalue = state.isosurfaces[i].isovalue;
+            if (state.isosurfaces[i].opacity > 0)
+                of_surface_[i] = number_of(subject, wanted.subjects);
+        }
+        if (const auto place = marked_place(state))
+            of_mark_ = number_of({.array = array, .place = place}, wanted.subjects);
+        wanted.at_hand = extractor.at_hand();
+    }
+    maker_.update(wanted);
+    if (!frame.is_live() && !wanted.subjects.empty()) { // replays are the same each time
+        const DrawsOnly waits;
+        maker_.finish();
+    }
+}
+
+std::vector<StepCurvePtr> SessionCurves::shown(bool of_mark) {
+    std::vector<StepCurvePtr> curves = maker_.curves();
+    std::erase_if(curves, [&](const StepCurvePtr& each) {
+        return each->subject.place.has_value() != of_mark;
+    });
+    return curves;
+}
+
+void SessionCurves::save(const ExplorerState& state) {
+    const std::vector<StepCurvePtr> curves = shown(state.curves.measure == kMarkCurve);
+    if (curves.empty())
+        return;
+    const std::string& chosen = state.pictures.folder;
+    writing_.post([folder = chosen.empty() ? folders_->tables : fs::path(chosen), curves] {
+        return write_table(folder, curves);
+    });
+}
+
+PanelCurves SessionCurves::in_panel(const ExplorerState& state) {
+    const std::vector<StepCurvePtr> curves = maker_.curves();
+    const auto curve = [&](const std::optional<std::size_t>& number) {
+        const bool there =
+            number && *number < curves.size() && (!only_whole_ || curves[*number]->left == 0);
+        return there ? curves[*number] : nullptr;
+    };
+    PanelCurves all;
+    for (const auto& number : of_surface_)
+        all.surfaces.push_back(curve(number));
+    all.mark = curve(of_mark_);
+    all.failure = maker_.failure();
+    if (folders_)
+        all.save = [this, &state] { save(state); };
+    return all;
+}
+
+} // namespace isochron::app

@@ -8,6 +8,7 @@
 #include "app/telling.h"
 #include "app/text.h"
 #include "index/error.h"
+#include "index/file/sections/file_layout.h"
 #include "index/system/input_file.h"
 #include "index/system/module.h"
 #include "index/system/new_file.h"
@@ -33,7 +34,7 @@ struct ServeArguments {
     std::string address = "127.0.0.1";
     std::uint32_t port = 0;
     fs::path write_site, certificate, key;
-    bool no_token = false;
+    bool no_token = false, follow = false;
 };
 
 const SiteModule& site_module() {
@@ -96,6 +97,17 @@ void write_site(const ServeArguments& arguments) {
         "an index holds the names of its source files and their notes (isochron info shows them)");
 }
 
+/// The state of an index that was written whole last: while more is appended, its bytes stay as they are.
+std::optional<ServedFile> written_of(const fs::path& file) {
+    try {
+        const index::FileHeader header = index::checked_header(*index::open_bytes(file));
+        return ServedFile{header.file_bytes,
+                          fmt::format("\"{:x}-{:x}\"", header.content_hash, header.checksum)};
+    } catch (const index::Error&) { // it is being replaced
+        return std::nullopt;
+    }
+}
+
 /// Waits without using the processor.
 void wait_for_signal() {
     struct Event {
@@ -120,6 +132,9 @@ void run_serve(const ServeArguments& arguments) {
                 fmt::format("{}: has no copy of its values (it was built with --refer); "
                             "isochron build {} -o NEW.isochron makes one that has",
                             file.string(), file.string()));
+    if (arguments.follow && !arguments.write_site.empty())
+        throw UsageError(
+            "--follow: files on another web server do not grow; expected it without --write-site");
     if (!arguments.write_site.empty())
         return write_site(arguments);
     if (arguments.certificate.empty() != arguments.key.empty())
@@ -130,11 +145,14 @@ void run_serve(const ServeArguments& arguments) {
     };
     const std::string token = arguments.no_token ? "" : new_control_token();
     const CancelOnSignal signals;
-    const auto server = site_module().serve({.files = arguments.files, .token = token, .hosts = {}},
-                                            {.address = arguments.address,
-                                             .port = static_cast<std::uint16_t>(arguments.port),
-                                             .certificate = text_of(arguments.certificate),
-                                             .key = text_of(arguments.key)});
+    SiteParts parts{.files = arguments.files, .token = token};
+    if (arguments.follow)
+        parts.written = written_of;
+    const auto server =
+        site_module().serve(std::move(parts), {.address = arguments.address,
+                                               .port = static_cast<std::uint16_t>(arguments.port),
+                                               .certificate = text_of(arguments.certificate),
+                                               .key = text_of(arguments.key)});
     const bool all = arguments.address == "0.0.0.0" || arguments.address == "::";
     const std::string host = all ? "THIS-MACHINE"
                              : arguments.address.find(':') != std::string::npos
@@ -181,6 +199,9 @@ void add_serve(Command& program) {
     command.flag("--no-token", arguments->no_token,
                  "Let everybody who reaches the address open the page, without the token of the "
                  "printed link");
+    command.flag("--follow", arguments->follow,
+                 "Show steps that `build --append` adds meanwhile, to whoever has the page or the "
+                 "link open");
     command
         .option(
             "--write-site", arguments->write_site,

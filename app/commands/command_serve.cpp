@@ -4,6 +4,7 @@
 #include "app/command_line/subcommands.h"
 #include "app/control/control_address.h"
 #include "app/indexing/open_index.h"
+#include "app/safe_text.h"
 #include "app/serve/http_server.h"
 #include "app/telling.h"
 #include "app/text.h"
@@ -19,6 +20,7 @@
 #include <fstream>
 #include <memory>
 #include <poll.h>
+#include <sstream>
 #include <string>
 #include <sys/eventfd.h>
 #include <unistd.h>
@@ -165,6 +167,14 @@ void run_serve(const ServeArguments& arguments) {
     print_answer("{}\n", link);
     print_result(); // now: whoever reads it wants to open it
     std::fflush(stdout);
+    // A camera reads what is not of this machine alone.
+    if (isatty(STDERR_FILENO) != 0 && !all && !arguments.address.starts_with("127.") &&
+        arguments.address != "::1")
+        for (std::istringstream code(site_module().qr_code(link)); code;) {
+            std::string line;
+            if (std::getline(code, line))
+                print_safely(stderr, "{}\n", line);
+        }
     print_note("serving until Ctrl+C");
     wait_for_signal();
 }

@@ -74,13 +74,13 @@ std::optional<double> number_in(const Words& words, const std::string& name) {
 }
 
 /// How the screen shows what is in front of the head.
-struct Sight {
+struct LinkSight {
     double half = 1;     ///< half the height of the picture at distance 1
     double distance = 1; ///< [m] to the screen
     glm::dmat3 room_from_eye{1.0};
     glm::dvec3 middle{0.0}; ///< of the screen, room space
 };
-Sight sight_of(const LinkScreen& of) {
+LinkSight sight_of(const LinkScreen& of) {
     const render::View view =
         stereo::view_of(of.screen, of.head, stereo::Eye::center, 0, 0.05f, 50.0f, of.pixels);
     const glm::dmat4 eye_from_room(view.eye_from_room);
@@ -113,7 +113,7 @@ void see_as_linked(ExplorerState& state, const std::vector<double>& view,
     const double distance = glm::distance(eye, target);
     if (!(distance > 0) || !std::isfinite(distance))
         return;
-    const Sight sight = sight_of(screen);
+    const LinkSight sight = sight_of(screen);
     interaction::Similarity& seen = state.room_from_physical;
     const interaction::Similarity before = seen;
     seen.exaggeration = 1;
@@ -202,7 +202,7 @@ ExplorerState as_linked(ExplorerState state, const Words& settings, const index:
 std::string link_to(const std::string& address, const ExplorerState& state,
                     const index::IndexFile& file, const LinkScreen& screen) {
     const interaction::Similarity& seen = state.room_from_physical;
-    const Sight sight = sight_of(screen);
+    const LinkSight sight = sight_of(screen);
     const auto to_physical = [&](const glm::dvec3& room) {
         return glm::conjugate(seen.rotation) * ((room - seen.translation) / seen.scale);
     };

@@ -4,6 +4,7 @@
 #include "app/end_in_time.h"
 #include "index/readers/process/process_text.h"
 #include "index/readers/process/reader_pool.h"
+#include "index/system/links/link.h"
 
 #include <array>
 #include <atomic>
@@ -64,9 +65,10 @@ CancelOnSignal::CancelOnSignal() {
         came = 0;
         launcher = find_launcher(); // before the end of a shell between the two leaves no trace
         index::readers_of_this_process().call_while_waiting(end_what_is_canceled);
+        index::call_while_waiting_for_links(end_what_is_canceled);
         EndInTime::watch();
     }
-    struct sigaction action{};
+    struct sigaction action {};
     action.sa_sigaction = note_signal;
     action.sa_flags = SA_RESTART | SA_SIGINFO;
     for (std::size_t i = 0; i < kSignals.size(); ++i) {

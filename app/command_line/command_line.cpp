@@ -13,6 +13,7 @@
 #include "app/version.h"
 
 #include "index/shell_word.h"
+#include "index/system/links/link.h"
 #include "index/system/memory_limit.h"
 
 #include <CLI/CLI.hpp>
@@ -183,7 +184,10 @@ void add_telling_options(CLI::App& command) {
               "--json", "Print one JSON object in place of text; its keys: docs/guide/json.md"},
           {"--quiet", "Print no notes, no progress and no report of files written"},
           {"--verbose", "Also print on stderr what is opened and what the work took"}})
-        command.add_flag_callback(name, [] {}, help)->group(group);
+        command
+            .add_flag_callback(
+                name, [] {}, help)
+            ->group(group);
     command.set_help_flag("-h,--help", "Print this help")->group(group);
     if (CLI::Option* all = command.get_option_no_throw("--help-all"); all && command.get_parent())
         all->group(""); // told by the program
@@ -391,6 +395,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kOldFlags
 
 /// Whether a word in the place of a command is data to explore, maybe with a path within.
 bool is_data(const CLI::App& program, const std::string& word) {
+    if (index::is_link(word))
+        return true;
     const std::string file = word.substr(0, word.find(":/"));
     const std::string_view command = command_for(file);
     std::error_code error;
@@ -407,6 +413,8 @@ bool is_data(const CLI::App& program, const std::string& word) {
 std::vector<std::string> arguments_from(const CLI::App& program, int argc,
                                         const char* const* argv) {
     std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    for (std::string& word : arguments) // what opens a link is told to nobody
+        word = index::address_of(word);
     for (std::string& argument : arguments) {
         const std::size_t end = std::min(argument.find('='), argument.size());
         for (const auto& [old, now] : kOldFlags)

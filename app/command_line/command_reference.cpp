@@ -48,11 +48,22 @@ constexpr std::array kFiles{
                  " explore replay tell "},
 };
 
+constexpr std::string_view kByLinks = " explore query info export measure change verify ";
 constexpr std::array kEnvironment{
     Surroundings{"XDG_STATE_HOME", "Folder that takes the place of ~/.local/state.", ""},
     Surroundings{"XDG_CACHE_HOME", "Folder that takes the place of ~/.cache.", " explore "},
     Surroundings{"XDG_RUNTIME_DIR", "Folder for the control socket; without it the state folder.",
                  " explore replay tell "},
+    Surroundings{"ISOCHRON_AUTHORIZATION",
+                 "`HOST VALUE`: what is sent as the header Authorization to this host, where an "
+                 "index is opened by a link.",
+                 kByLinks},
+    Surroundings{"ISOCHRON_LINK_CACHE",
+                 "MiB that are kept of indices that are opened by links; without it 4096.",
+                 kByLinks},
+    Surroundings{"ISOCHRON_LINK_PATIENCE",
+                 "Seconds for which the server of a link may send nothing; without it 60.",
+                 kByLinks},
     Surroundings{"DISPLAY", "X display on which windows are opened.", " explore replay "},
     Surroundings{"XR_RUNTIME_JSON", "File that names the OpenXR runtime of a headset.",
                  " explore "},

@@ -9,6 +9,7 @@
 #include "app/telling.h"
 
 #include "index/file/index_series.h"
+#include "index/system/links/link.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -44,9 +45,10 @@ void run_info(const InfoArguments& given) {
     set_up_readers(arguments);
     const std::string& first = arguments.files.front();
     std::error_code ignored;
-    const bool is_data = arguments.files.size() > 1 ||
-                         (std::filesystem::path(first).extension() != ".isochron" &&
-                          !(std::filesystem::exists(first, ignored) && index::is_index(first)));
+    const bool is_data =
+        arguments.files.size() > 1 ||
+        (!index::is_link(first) && std::filesystem::path(first).extension() != ".isochron" &&
+         !(std::filesystem::exists(first, ignored) && index::is_index(first)));
     if (is_data && given.tree)
         throw UsageError(fmt::format("--tree: {} is not an index", first));
     if (is_data && given.measure_time)

@@ -4,10 +4,12 @@
 #include "app/command_line/subcommands.h"
 #include "app/control/control_address.h"
 #include "app/indexing/open_index.h"
+#include "app/safe_text.h"
 #include "app/serve/http_server.h"
 #include "app/telling.h"
 #include "app/text.h"
 #include "index/error.h"
+#include "index/file/sections/file_layout.h"
 #include "index/system/input_file.h"
 #include "index/system/module.h"
 #include "index/system/new_file.h"
@@ -18,6 +20,7 @@
 #include <fstream>
 #include <memory>
 #include <poll.h>
+#include <sstream>
 #include <string>
 #include <sys/eventfd.h>
 #include <unistd.h>
@@ -33,7 +36,7 @@ struct ServeArguments {
     std::string address = "127.0.0.1";
     std::uint32_t port = 0;
     fs::path write_site, certificate, key;
-    bool no_token = false;
+    bool no_token = false, follow = false;
 };
 
 const SiteModule& site_module() {
@@ -96,6 +99,17 @@ void write_site(const ServeArguments& arguments) {
         "an index holds the names of its source files and their notes (isochron info shows them)");
 }
 
+/// The state of an index that was written whole last: while more is appended, its bytes stay as they are.
+std::optional<ServedFile> written_of(const fs::path& file) {
+    try {
+        const index::FileHeader header = index::checked_header(*index::open_bytes(file));
+        return ServedFile{header.file_bytes,
+                          fmt::format("\"{:x}-{:x}\"", header.content_hash, header.checksum)};
+    } catch (const index::Error&) { // it is being replaced
+        return std::nullopt;
+    }
+}
+
 /// Waits without using the processor.
 void wait_for_signal() {
     struct Event {
@@ -120,6 +134,9 @@ void run_serve(const ServeArguments& arguments) {
                 fmt::format("{}: has no copy of its values (it was built with --refer); "
                             "isochron build {} -o NEW.isochron makes one that has",
                             file.string(), file.string()));
+    if (arguments.follow && !arguments.write_site.empty())
+        throw UsageError(
+            "--follow: files on another web server do not grow; expected it without --write-site");
     if (!arguments.write_site.empty())
         return write_site(arguments);
     if (arguments.certificate.empty() != arguments.key.empty())
@@ -130,11 +147,14 @@ void run_serve(const ServeArguments& arguments) {
     };
     const std::string token = arguments.no_token ? "" : new_control_token();
     const CancelOnSignal signals;
-    const auto server = site_module().serve({.files = arguments.files, .token = token, .hosts = {}},
-                                            {.address = arguments.address,
-                                             .port = static_cast<std::uint16_t>(arguments.port),
-                                             .certificate = text_of(arguments.certificate),
-                                             .key = text_of(arguments.key)});
+    SiteParts parts{.files = arguments.files, .token = token};
+    if (arguments.follow)
+        parts.written = written_of;
+    const auto server =
+        site_module().serve(std::move(parts), {.address = arguments.address,
+                                               .port = static_cast<std::uint16_t>(arguments.port),
+                                               .certificate = text_of(arguments.certificate),
+                                               .key = text_of(arguments.key)});
     const bool all = arguments.address == "0.0.0.0" || arguments.address == "::";
     const std::string host = all ? "THIS-MACHINE"
                              : arguments.address.find(':') != std::string::npos
@@ -147,6 +167,14 @@ void run_serve(const ServeArguments& arguments) {
     print_answer("{}\n", link);
     print_result(); // now: whoever reads it wants to open it
     std::fflush(stdout);
+    // A camera reads what is not of this machine alone.
+    if (isatty(STDERR_FILENO) != 0 && !all && !arguments.address.starts_with("127.") &&
+        arguments.address != "::1")
+        for (std::istringstream code(site_module().qr_code(link)); code;) {
+            std::string line;
+            if (std::getline(code, line))
+                print_safely(stderr, "{}\n", line);
+        }
     print_note("serving until Ctrl+C");
     wait_for_signal();
 }
@@ -181,6 +209,9 @@ void add_serve(Command& program) {
     command.flag("--no-token", arguments->no_token,
                  "Let everybody who reaches the address open the page, without the token of the "
                  "printed link");
+    command.flag("--follow", arguments->follow,
+                 "Show steps that `build --append` adds meanwhile, to whoever has the page or the "
+                 "link open");
     command
         .option(
             "--write-site", arguments->write_site,

@@ -21,6 +21,7 @@
 #include "app/loop/surface_maker.h"
 #include "app/telling.h"
 #include "index/error.h"
+#include "index/system/links/link.h"
 #include "index/system/new_file.h"
 #include "index/system/user_folders.h"
 #include "interaction/recording/recording.h"
@@ -194,6 +195,12 @@ void Exploration::open_index_file() {
             return;
     }
     file_ = opening.take();
+    if (!index::is_link(*options_.data))
+        return;
+    of_link_ = index::settings_of_link(*options_.data);
+    if (options_.data_name == *options_.data)
+        options_.data_name = file_->name();
+    options_.data = file_->name(); // what a page leads to
 }
 
 /// Whether the first picture comes before all is compiled that later ones may need: in one window.
@@ -294,7 +301,21 @@ void Exploration::set_start() {
         session_->set_state(session_->state());
         session_->set_state(first_look(*session_, options_, config_, file_));
     }
+    if (!of_link_.empty()) {
+        ExplorerState linked = session_->state();
+        const std::size_t array = array_of_link(of_link_, *file_);
+        if (array > 0)
+            linked.apply(session_->way_to_array(array), steps);
+        session_->set_state(as_linked(std::move(linked), of_link_, *file_, link_screen()));
+    }
     session_->set_state(start_from(session_->state(), options_, steps));
+}
+
+/// The first window, as links see it.
+LinkScreen Exploration::link_screen() const {
+    return {config_.installation.windows.front().viewports.front().screen,
+            {config_.installation.viewers.front().position, {1, 0, 0, 0}},
+            glm::max(session_->outputs().windows().first().framebuffer_size(), 1)};
 }
 
 std::optional<std::string> Exploration::array() const {
@@ -337,6 +358,10 @@ LiveOptions Exploration::live_options_with(UserMemory& memory, BackgroundWork& w
     if (job_.size() > 1)
         return how;
     how.why_not_open = [](const std::filesystem::path& data) { return why_not_open(data); };
+    if (index::is_link(*options_.data))
+        how.link = [this] {
+            return link_to(*options_.data, session_->state(), *session_->file(), link_screen());
+        };
     if (indexing_)
         how.standing = [this] {
             const Indexing::State now = indexing_->state();

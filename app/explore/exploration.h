@@ -6,6 +6,7 @@
 #include "app/command_line/cancel.h"
 #include "app/explore/cluster_job.h"
 #include "app/explore/explore_options.h"
+#include "app/explore/link_view.h"
 #include "app/indexing/indexing.h"
 #include "app/kept/earlier_sessions.h"
 #include "app/kept/session_claim.h"
@@ -16,6 +17,7 @@
 #include "stereo/headset.h"
 #include "stereo/windows.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,6 +56,7 @@ class Exploration {
     bool prepare_session();
     void open_session();
     void set_start();
+    LinkScreen link_screen() const;
 
     LiveOptions live_options_with(UserMemory& memory, BackgroundWork& writing);
     void lead(LiveLoop& live, BackgroundWork& reading);
@@ -77,6 +80,7 @@ class Exploration {
     std::shared_ptr<SessionControl> control_; ///< null: nobody steers from outside
     bool canceled_ = false;
     std::vector<interaction::WindowEvent> early_; ///< events that came before the first frame
+    std::map<std::string, std::string> of_link_;  ///< settings that came with the data's link
     std::optional<SavedSession> earlier_;         ///< the session that is resumed
     std::optional<SessionClaim> claim_;           ///< on the file to which this one is saved
 };

@@ -9,6 +9,7 @@
 #include "app/loop/data_window.h"
 #include "app/text.h"
 #include "index/file/index_series.h"
+#include "index/system/links/link.h"
 #include "index/system/user_folders.h"
 
 #include <fmt/format.h>
@@ -64,6 +65,8 @@ bool is_index_name(const std::vector<std::string>& files) {
     std::error_code ignored;
     if (files.size() != 1)
         return false;
+    if (index::is_link(files.front()))
+        return true;
     if (!fs::exists(files.front(), ignored))
         return !is_pattern(files.front());
     return fs::path(files.front()).extension() == ".isochron" || index::is_index(files.front());

@@ -6,6 +6,7 @@
 #include "app/telling.h"
 #include "app/version.h"
 #include "index/file/index_states.h"
+#include "index/system/links/link.h"
 #include "index/system/new_file.h"
 #include "interaction/error.h"
 #include "interaction/navigation/key_frames.h"
@@ -151,7 +152,7 @@ void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& pa
     if (!path)
         return;
     SavedSession kept{.program = std::string(kProgram),
-                      .data = fs::absolute(*options.data).string(),
+                      .data = index::absolute_name(*options.data),
                       .data_hash = data_hash_of(file),
                       .state = interaction::kept_state(session.state().as_commands()),
                       .head = live.standing(),
@@ -159,7 +160,8 @@ void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& pa
                       .only_looked = !earlier || earlier->only_looked,
                       .reading = file.metadata().reading_number};
     if (const auto opened = name_to_remember(options))
-        kept.opened = fs::absolute(*opened).lexically_normal().string();
+        kept.opened =
+            index::is_link(*opened) ? *opened : fs::absolute(*opened).lexically_normal().string();
     if (earlier && resumed) {
         kept.name = earlier->name;
         kept.picture = earlier->picture;

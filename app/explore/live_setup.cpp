@@ -12,6 +12,7 @@
 #include "app/telling.h"
 #include "app/version.h"
 #include "index/error.h"
+#include "index/system/links/link.h"
 #include "index/system/module.h"
 #include "index/system/new_file.h"
 #include "index/system/user_folders.h"
@@ -155,7 +156,7 @@ interaction::RecordingHeader header_of(const Session& session, const Config& con
     interaction::RecordingHeader header;
     header.program = kProgram;
     header.configuration = config.text;
-    header.data = std::filesystem::absolute(path).string();
+    header.data = index::absolute_name(path);
     const glm::ivec2 window = session.outputs().windows()[0].framebuffer_size();
     // An emulated installation is as large as configured.
     if (!session.outputs().windows().room() && session.outputs().windows().number(0) == 0) {

@@ -6,6 +6,7 @@
 #include "app/explore/kept_session.h"
 #include "app/indexing/open_index.h"
 #include "app/telling.h"
+#include "index/system/links/link.h"
 
 #include <fmt/format.h>
 
@@ -112,7 +113,7 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
                                                 const Config& config) {
     std::string path = options.data.value_or(header.data);
     std::error_code ignored;
-    if (!options.data && !fs::exists(path, ignored)) {
+    if (!options.data && !index::is_link(path) && !fs::exists(path, ignored)) {
         // A relative path refers to the folder where the session was started; try the recording's
         // folder too.
         path = (fs::path(options.recording).parent_path() / header.data).string();

@@ -6,6 +6,7 @@
 #include "index/file/index_file.h"
 #include "index/readers/formats/series/resampled_series.h"
 #include "index/readers/process/reader_pool.h"
+#include "index/system/links/link.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
@@ -257,6 +258,8 @@ void set_up_readers(const BuildArguments& arguments) {
     index::ReaderPool& readers = index::readers_of_this_process();
     readers.let_read(arguments.allowed);
     readers.set_patience(std::chrono::milliseconds(std::lround(arguments.patience * 1000)));
+    if (arguments.patience != BuildArguments().patience)
+        index::set_link_patience(std::chrono::milliseconds(std::lround(arguments.patience * 1000)));
 }
 
 void add_reading_options(Command& command, BuildArguments& arguments) {

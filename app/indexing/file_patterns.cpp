@@ -3,6 +3,7 @@
 
 #include "index/missing_file.h"
 #include "index/name_pattern.h"
+#include "index/system/links/link.h"
 
 #include <fmt/format.h>
 
@@ -45,6 +46,11 @@ std::vector<fs::path> expand_patterns(const std::vector<std::string>& arguments)
     std::vector<fs::path> files;
     std::error_code ignored;
     for (const std::string& argument : arguments) {
+        if (index::is_link(argument))
+            throw index::Error(fmt::format(
+                "{}: files of values are not read by a link, and neither is an index to "
+                "build of: download it",
+                argument));
         // A file may have brackets in its name: an existing file is a name, not a pattern.
         if (fs::exists(argument, ignored) || argument.find_first_of("*?[") == std::string::npos) {
             files.emplace_back(argument);
@@ -66,7 +72,8 @@ std::optional<std::string> take_path_within(std::vector<std::string>& arguments)
     std::error_code ignored;
     for (std::string& argument : arguments) {
         const std::size_t colon = argument.find(":/");
-        if (colon == std::string::npos || colon == 0 || fs::exists(argument, ignored))
+        if (index::is_link(argument) || colon == std::string::npos || colon == 0 ||
+            fs::exists(argument, ignored))
             continue;
         const std::string path = argument.substr(colon + 1);
         if (found && *found != path)

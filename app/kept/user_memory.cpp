@@ -4,6 +4,7 @@
 #include "app/config/series_names.h"
 #include "index/error.h"
 #include "index/system/input_file.h"
+#include "index/system/links/link.h"
 #include "index/system/new_file.h"
 
 #include <algorithm>
@@ -25,9 +26,13 @@ void write_text(const fs::path& path, const std::string& text) {
     }
 }
 
+fs::path whole_name(const fs::path& data) {
+    return index::is_link(data.native()) ? data : fs::absolute(data).lexically_normal();
+}
+
 /// What stands before the name of an array.
 std::string key_of(const fs::path& data) {
-    return fs::absolute(data).lexically_normal().string() + "\t";
+    return whole_name(data).string() + "\t";
 }
 
 } // namespace
@@ -57,7 +62,7 @@ std::vector<fs::path> UserMemory::recent() const {
     std::error_code error;
     for (const fs::path path : lines_of("recent"))
         if (paths.size() < kMost &&
-            (fs::exists(path, error) ||
+            (index::is_link(path.native()) || fs::exists(path, error) ||
              (is_pattern(path.filename().string()) && fs::exists(path.parent_path(), error))))
             paths.push_back(path);
     return paths;
@@ -87,7 +92,7 @@ void UserMemory::remember_array(const fs::path& data, const std::string& array) 
 void UserMemory::remember(const fs::path& data) {
     if (!folder_)
         return;
-    const fs::path newest = fs::absolute(data).lexically_normal();
+    const fs::path newest = whole_name(data);
     std::string lines = newest.string() + "\n";
     for (const fs::path& path : recent())
         if (path != newest)

@@ -26,13 +26,15 @@ bool acts(const std::vector<interaction::WindowEvent>& events) {
     });
 }
 
-/// Gives the clipboard what the user points at, or has chosen in the panel.
+/// Gives the clipboard what the user points at, or has chosen in the panel; else the link.
 /// @param asks the user wants what they point at
-void give_to_desktop(Session& session, bool asks) {
+void give_to_desktop(Session& session, bool asks, const std::function<std::string()>& link) {
     const DesktopWish wish = session.panel().take_desktop_wish();
     if (!wish.folder.empty())
         open_folder(wish.folder);
-    const std::string words = wish.text.empty() && asks ? session.pointed() : wish.text;
+    std::string words = wish.text.empty() && asks ? session.pointed() : wish.text;
+    if (words.empty() && asks && link)
+        words = link();
     if (!words.empty())
         session.outputs().windows().first().set_clipboard(words);
     if (asks || !words.empty())
@@ -187,7 +189,7 @@ void LiveLoop::run(Session& session) {
             companion->after_frame(session, frame);
             session.show_messages(companion->messages());
         }
-        give_to_desktop(session, commands.copy);
+        give_to_desktop(session, commands.copy, options_.link);
         if (commands.save && !companions_.contains(CompanionPlace::keeper))
             session.show_messages({options_.not_kept});
         session.set_standing(opening_.busy() ? opening_.note() : options_.standing());

@@ -46,6 +46,8 @@ struct LiveOptions {
     std::string not_kept = "this session is not saved";
     /// Called in each frame: the picture shows the note that it returns.
     std::function<std::string()> standing = [] { return std::string(); };
+    /// The link to what is shown; null: the data are not of a link.
+    std::function<std::string()> link = {};
     std::vector<interaction::WindowEvent> early = {}; ///< that came before the first frame
     /// These events behind the early ones, which are taken.
     std::vector<interaction::WindowEvent>

@@ -5,6 +5,7 @@
 #include "index/file/named_index.h"
 #include "index/interrupted.h"
 #include "index/missing_file.h"
+#include "index/system/links/link.h"
 #include "index/system/module.h"
 #include "index/volume/time_unit.h"
 #include "version_number.h"
@@ -125,9 +126,13 @@ py::array values(const RunArray& array, std::int64_t step, std::int64_t fraction
     for (const auto& [first, end] : box)
         shape.push_back(static_cast<py::ssize_t>(end) - first);
     if (fraction == 0)
-        return owned(unlocked([&] { return array.values({step, 0}, box, level); }), shape,
-                     type_of(array));
-    return owned(unlocked([&] { return array.blended_values({step, fraction}, box, level); }),
+        return owned(unlocked([&] {
+                         return array.values({step, 0}, box, level);
+                     }),
+                     shape, type_of(array));
+    return owned(unlocked([&] {
+                     return array.blended_values({step, fraction}, box, level);
+                 }),
                  shape, py::dtype::of<double>());
 }
 
@@ -289,6 +294,13 @@ std::vector<std::string> measure_names() {
     return names;
 }
 
+/// Lets Ctrl-C end a wait for a server.
+void raise_signals() {
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0)
+        throw py::error_already_set();
+}
+
 } // namespace
 
 PYBIND11_MODULE(_native, module) {
@@ -298,6 +310,15 @@ PYBIND11_MODULE(_native, module) {
     module.attr("FROM_INSTALLED") = ISOCHRON_FROM_INSTALLED;
     module.attr("FROM_BUILT") = ISOCHRON_FROM_BUILT;
     module.def("set_program_folder", &index::set_program_folder, "folder"_a);
+    module.def(
+        "address_of", [](const std::string& name) { return index::address_of(name); }, "name"_a);
+    module.def(
+        "is_link", [](const std::string& name) { return index::is_link(name); }, "name"_a);
+    module.def("authorization_for", [](const std::string& address) {
+        const std::string value = index::is_link(address) ? index::authorization_for(address) : "";
+        return value.empty() ? value : index::host_of_link(address) + " " + value;
+    });
+    index::call_while_waiting_for_links(&raise_signals);
     module.def("times_in", &index::times_in, "wanted"_a, "given"_a, "times"_a);
     module.def("measure_names", &measure_names);
     module.def("build", &build, "files"_a, "out"_a, "words"_a, "times"_a, "arrays"_a, "progress"_a);

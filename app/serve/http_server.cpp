@@ -229,6 +229,6 @@ extern "C" __attribute__((visibility("default"))) const SiteModule isochron_site
     [](SiteParts parts, const HttpPlace& place) -> std::unique_ptr<HttpServer> {
         return std::make_unique<Server>(std::move(parts), place);
     },
-    write_page};
+    write_page, qr_code};
 
 } // namespace isochron::app

@@ -23,6 +23,10 @@ struct HttpPlace {
     std::string certificate, key;      ///< in PEM, both or neither: https
 };
 
+/// A QR code of a text in lines of blocks, two modules high, light where the terminal's ink is: for dark
+/// terminals. Empty: it is too long, or the module was built without libqrencode.
+std::string qr_code(const std::string& text);
+
 /// What the module has, under the name `isochron_site_module`.
 struct SiteModule {
     /// @param parts without hosts: those that `place` has are set
@@ -32,6 +36,7 @@ struct SiteModule {
     /// @throws index::Error when that fails
     void (*write_page)(const std::filesystem::path& folder,
                        const std::vector<std::filesystem::path>& files);
+    std::string (*qr_code)(const std::string& text);
 };
 
 } // namespace isochron::app

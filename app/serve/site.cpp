@@ -48,18 +48,13 @@ bool same_secret(std::string_view a, std::string_view b) {
     return differ == 0;
 }
 
-/// A file as it is now: its size, and a tag that another content does not have.
-struct FileNow {
-    std::uint64_t bytes = 0;
-    std::string tag;
-};
-std::optional<FileNow> file_now(const fs::path& path) {
-    struct stat found{};
+std::optional<ServedFile> file_now(const fs::path& path) {
+    struct stat found {};
     if (stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode))
         return std::nullopt;
-    return FileNow{static_cast<std::uint64_t>(found.st_size),
-                   fmt::format("\"{:x}-{:x}-{:x}{:09}\"", found.st_ino, found.st_size,
-                               found.st_mtim.tv_sec, found.st_mtim.tv_nsec)};
+    return ServedFile{static_cast<std::uint64_t>(found.st_size),
+                      fmt::format("\"{:x}-{:x}-{:x}{:09}\"", found.st_ino, found.st_size,
+                                  found.st_mtim.tv_sec, found.st_mtim.tv_nsec)};
 }
 
 } // namespace
@@ -95,9 +90,10 @@ std::string Site::list() const {
     nlohmann::ordered_json names = nlohmann::ordered_json::array();
     for (const fs::path& file : parts_.files)
         names.push_back(file.filename().string());
-    return nlohmann::ordered_json{{"format", "isochron site"}, {"files", names}}.dump(
-               2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-           "\n";
+    nlohmann::ordered_json site{{"format", "isochron site"}, {"files", names}};
+    if (parts_.written)
+        site["follow"] = true;
+    return site.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 SiteAnswer Site::answer(const SiteRequest& request) const {
@@ -138,13 +134,20 @@ SiteAnswer Site::answer(const SiteRequest& request) const {
     return listed;
 }
 
+std::optional<ServedFile> Site::now(const fs::path& path) const {
+    return parts_.written ? parts_.written(path) : file_now(path);
+}
+
 SiteAnswer Site::of_file(const SiteRequest& request, const fs::path& path) const {
-    const auto now = file_now(path);
+    const auto now = this->now(path);
     if (!now)
         return words(404, "the file is gone\n");
     if (const auto wanted = request.header("if-match");
         !wanted.empty() && wanted != "*" && wanted.find(now->tag) == std::string_view::npos)
         return words(412, "the file has changed\n");
+    if (!request.header("if-none-match").empty() &&
+        request.header("if-none-match").find(now->tag) != std::string_view::npos)
+        return {.status = 304, .headers = {{"ETag", now->tag}, {"Cache-Control", "no-cache"}}};
     SiteAnswer answer{
         .headers = {{"Accept-Ranges", "bytes"}, {"ETag", now->tag}, {"Cache-Control", "no-cache"}},
         .file = path};

@@ -27,6 +27,12 @@ std::span<const PageFile> page_files();
 /// What a browser is told of a file with this name.
 std::string_view media_type(std::string_view name);
 
+/// A file as it is served at the moment.
+struct ServedFile {
+    std::uint64_t bytes = 0; ///< what lies behind them is not served
+    std::string tag;         ///< another content does not have it
+};
+
 /// What a site is made of.
 struct SiteParts {
     std::vector<std::filesystem::path> files; ///< served under their names without folders
@@ -34,6 +40,8 @@ struct SiteParts {
     /// Hosts that a request may name; empty: any. It keeps pages of other sites from asking through a
     /// browser under a name of theirs.
     std::vector<std::string> hosts{};
+    /// Of files that grow: as what was written whole last. Null: files are as they are.
+    std::function<std::optional<ServedFile>(const std::filesystem::path&)> written{};
 };
 
 /// A request, as far as a site looks at it.
@@ -70,6 +78,7 @@ class Site {
     std::string list() const;
 
   private:
+    std::optional<ServedFile> now(const std::filesystem::path& path) const;
     SiteAnswer of_file(const SiteRequest& request, const std::filesystem::path& path) const;
 
     SiteParts parts_;

@@ -2,8 +2,10 @@
 #include "index/file/index_file.h"
 
 #include "index/file/detail_levels.h"
+#include "index/file/index_states.h"
 #include "index/file/sections/step_levels.h"
 #include "index/scan/bricks.h"
+#include "index/system/links/link_source.h"
 #include "index/system/memory_limit.h"
 
 #include <fmt/format.h>
@@ -84,6 +86,9 @@ void IndexFile::read() {
     if (const std::uint64_t size = header_.section(SectionKind::metadata).bytes;
         size > kMaxMetadataBytes)
         throw damaged(fmt::format("metadata of {} bytes", size));
+    for (const Section& each : header_.sections) // at once, but for the tree
+        if (&each != &header_.section(SectionKind::tree))
+            bytes_->expect(each.offset, each.bytes);
     const auto text = section<char>(SectionKind::metadata);
     try {
         metadata_ = metadata_from_json({text.data(), text.size()});
@@ -308,7 +313,13 @@ Error IndexFile::mismatch(SectionKind kind) const {
 
 std::shared_ptr<const IndexFile> IndexFile::open(const std::filesystem::path& path,
                                                  std::uint64_t cache_bytes) {
-    return open_newest([&] { return open_bytes(path); }, cache_bytes);
+    const auto file = open_newest([&] { return open_bytes(path); }, cache_bytes);
+    // The file of another machine that grows goes on: its chunks stay where they are.
+    if (const auto* const remote = dynamic_cast<const RemoteSource*>(&file->bytes()))
+        remote->accept_where([hash = file->content_hash(), steps = file->info().steps()](auto now) {
+            return has_had(*IndexFile::open(std::move(now)), hash, steps);
+        });
+    return file;
 }
 
 std::shared_ptr<const IndexFile> IndexFile::open(std::unique_ptr<ByteSource> bytes,

@@ -4,6 +4,7 @@
 #include "index/file/index_states.h"
 
 #include "index/system/descriptor.h"
+#include "index/system/links/link_source.h"
 
 #include <algorithm>
 #include <utility>
@@ -52,6 +53,8 @@ std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const 
 }
 
 std::shared_ptr<const IndexFile> GrowthLook::look(const IndexFile& known) {
+    if (const auto* const remote = dynamic_cast<const RemoteSource*>(&known.bytes()))
+        return remote->may_have_changed() ? grown(path_, known) : nullptr;
     try {
         const FileState state = asked_state(path_);
         if (state == looked_at_)
@@ -79,6 +82,9 @@ std::shared_ptr<const IndexFile> IndexWatch::take() {
 }
 
 void IndexWatch::watch(const std::stop_token& stop) {
+    constexpr std::chrono::milliseconds kLongestOfServer{4000};
+    const bool remote = dynamic_cast<const RemoteSource*>(&known_->bytes()) != nullptr;
+    const std::chrono::milliseconds longest = remote ? kLongestOfServer : kLongest;
     std::chrono::milliseconds period = kPeriod;
     std::unique_lock lock(mutex_);
     while (!changed_.wait_for(lock, stop, period, [&] { return stop.stop_requested(); })) {
@@ -86,7 +92,7 @@ void IndexWatch::watch(const std::stop_token& stop) {
         lock.unlock();
         auto found = look_.look(*known);
         lock.lock();
-        period = found ? kPeriod : std::min(2 * period, kLongest);
+        period = found ? kPeriod : std::min(2 * period, longest);
         if (!found)
             continue;
         known_ = newer_ = std::move(found);

@@ -2,6 +2,7 @@
 #include "index/file/named_index.h"
 
 #include "index/shell_word.h"
+#include "index/system/links/link.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,6 +15,9 @@ std::shared_ptr<const IndexFile> open_named_index(const std::filesystem::path& p
     try {
         return IndexFile::open(path, cache_bytes);
     } catch (const Error& error) {
+        if (is_link(path.native()) && path.extension() != ".isochron" && path.has_filename())
+            throw Error(
+                fmt::format("{}; links lead to indices alone: download other files", error.what()));
         std::error_code ignored;
         if (path.extension() == ".isochron" || !std::filesystem::is_regular_file(path, ignored))
             throw;

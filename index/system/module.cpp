@@ -32,6 +32,9 @@ constexpr std::array kComponents{Component{"isochron-reader-vtk", "isochron-read
                                  Component{"isochron-reader-mesh", "isochron-readers-vtk"},
                                  Component{"libisochron_mpi.so", "isochron-mpi"},
                                  Component{"isochron-generate", "isochron-generate"}};
+/// Files that are built where these packages are.
+constexpr std::array kBuiltWith{Component{"libisochron_links.so", "libcurl4-gnutls-dev"},
+                                Component{"libisochron_site.so", "libmicrohttpd-dev"}};
 
 ProgramFolder& folder_that_was_set() {
     static ProgramFolder folder;
@@ -65,6 +68,11 @@ fs::path file_of_program(const std::string& name) {
                 fmt::format("; `apt install {}` brings it, or `./run build --everything` where "
                             "the program was built",
                             package);
+    for (const auto& [file, package] : kBuiltWith)
+        if (file == name)
+            way_out = fmt::format(
+                "; `apt install {}` and `./run build` where the program was built bring it",
+                package);
     throw Error(
         fmt::format("{}: not found beside the program in {}{}", name, folder.string(), way_out));
 }

@@ -44,6 +44,8 @@ _when_imported.call("xarray", "isochron._accessor")
 def open(path: str | _os.PathLike[str]) -> Run:
     """Opens an index, which reads little of it. Several threads may use the run at once.
 
+    path: of a file, or a link, `https://.../run42.isochron`, also the one that `isochron serve` prints.
+
     Raises Error if the file is missing (MissingFileError), is no index, or is damaged.
     """
     return Run(path)

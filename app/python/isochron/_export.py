@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
+from . import _native
 from ._arguments import crop_word, moment, number, numbers, option, several, steps_word, word
 from ._errors import ArgumentError
 from ._program import run as run_program
@@ -45,5 +46,5 @@ def export(
             words += option(name, word(number(value, name)))
         else:
             words += option(name, value)
-    written: dict[str, Any] = json.loads(run_program([*words, "--json"]))
+    written: dict[str, Any] = json.loads(run_program([*words, "--json"], authorization=_native.authorization_for(run._place)))
     return written

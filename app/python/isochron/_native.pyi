@@ -8,6 +8,10 @@ __version__: str
 FROM_BUILT: str
 FROM_INSTALLED: str
 
+def address_of(name: str) -> str: ...
+def is_link(name: str) -> bool: ...
+def authorization_for(address: str) -> str: ...
+
 class About(TypedDict):
     array: str
     times: NDArray[np.float64]

@@ -11,12 +11,22 @@ from ._errors import Error, error_of, in_parameters
 from ._place import program_folder
 
 
-def run(words: Sequence[str], folder: str | None = None) -> str:
-    """What the program prints. @raises Error: in its last line"""
+def run(words: Sequence[str], folder: str | None = None, authorization: str = "") -> str:
+    """What the program prints. @raises Error: in its last line
+
+    authorization: what the program sends to a web server, as ISOCHRON_AUTHORIZATION has it; empty: nothing more.
+    """
+    environment = {**os.environ, "ISOCHRON_AUTHORIZATION": authorization} if authorization else None
     program = os.path.join(program_folder(), "isochron")
     try:
         ran = subprocess.run(
-            [program, *words], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace"
+            [program, *words],
+            cwd=folder,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            errors="replace",
         )
     except FileNotFoundError:
         raise Error(f"isochron: not found in {os.path.dirname(program)}") from None

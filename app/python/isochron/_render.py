@@ -85,12 +85,12 @@ def _pixels(tiff: bytes) -> NDArray[np.uint8]:
     return np.cumsum(rows, axis=1, dtype=np.uint8)
 
 
-def render(index: str, state: Mapping[str, Any], size: tuple[int, int]) -> NDArray[np.uint8]:
+def render(index: str, state: Mapping[str, Any], size: tuple[int, int], authorization: str) -> NDArray[np.uint8]:
     with tempfile.TemporaryDirectory(prefix="isochron-") as folder:
         with open(os.path.join(folder, "picture.jsonl"), "w", encoding="utf-8") as file:
             file.write(_recording(index, state, size))
         try:
-            run_program(["replay", "picture.jsonl", "--stamps", "--out", "pictures", "--format", "tiff"], folder)
+            run_program(["replay", "picture.jsonl", "--stamps", "--out", "pictures", "--format", "tiff"], folder, authorization)
         except Error as error:
             raise Error(str(error).replace("picture.jsonl:1: start", "state")) from None
         (picture,) = os.listdir(os.path.join(folder, "pictures"))

@@ -37,9 +37,9 @@ class Run:
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
-        self._path = os.fspath(path)
-        self._place = os.path.abspath(self._path)
+        self._path = _native.address_of(os.fspath(path))
         self._native: _native.OpenRun | None = _native.OpenRun(self._path)
+        self._place = self._path if _native.is_link(self._path) else os.path.abspath(self._path)
         self._names = tuple(self._native.names())
         self._about = self._native.array(None).description()
         lost = self._native.lost()
@@ -491,7 +491,7 @@ class Run:
         elif state is not None:
             shown = state
         width, height = (whole(length, "size") for length in size)
-        return render(self._place, shown, (width, height))
+        return render(self._place, shown, (width, height), _native.authorization_for(self._place))
 
     def close(self) -> None:
         """Closes the index; arrays that it gave stay valid."""

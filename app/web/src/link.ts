@@ -2,6 +2,16 @@
 
 import { MAP_NAMES } from "./view/colors";
 
+/** A surface of the array, and how it looks. */
+export interface Surface {
+  isovalue: number;
+  /** `#rrggbb`, and 0 to 1. */
+  color: string;
+  opacity: number;
+}
+/** As many as the native program shows. */
+export const MOST_SURFACES = 8;
+
 export interface Linked {
   file?: string;
   array?: number;
@@ -10,6 +20,8 @@ export interface Linked {
   view?: number[];
   color?: string;
   opacity?: number;
+  surfaces?: Surface[];
+  picked?: number;
   background?: string;
   colors?: number;
   map?: string;
@@ -28,13 +40,20 @@ export function linked(hash: string): Linked {
   const file = words.get("file");
   // A name beside the page: no folder, no other server.
   if (file && /^[^/\\:?#]+$/.test(file) && !file.startsWith(".")) state.file = file;
-  for (const name of ["array", "step", "colors"] as const) {
+  for (const name of ["array", "step", "colors", "picked"] as const) {
     const value = numberOf(words.get(name));
     if (value !== undefined && Number.isInteger(value) && value >= 0) state[name] = value;
   }
   state.isovalue = numberOf(words.get("isovalue"));
   const opacity = numberOf(words.get("opacity"));
   if (opacity !== undefined && opacity > 0 && opacity <= 1) state.opacity = opacity;
+  // Each as isovalue/rrggbb/opacity.
+  const surfaces = (words.get("surfaces") ?? "").split(",").map((word): Surface => {
+    const [isovalue, color, share] = word.split("/");
+    const opacity = numberOf(share ?? null) ?? 1;
+    return { isovalue: numberOf(isovalue ?? null) ?? NaN, color: /^[0-9a-f]{6}$/i.test(color ?? "") ? `#${color}` : "#e8d3a0", opacity: Math.min(1, Math.max(0, opacity)) };
+  });
+  if (surfaces.length <= MOST_SURFACES && surfaces.every(({ isovalue }) => Number.isFinite(isovalue))) state.surfaces = surfaces;
   const map = words.get("map");
   if (map && (MAP_NAMES as string[]).includes(map)) state.map = map;
   const clip = (words.get("clip") ?? "").split(",").map(Number);
@@ -50,7 +69,9 @@ export function linked(hash: string): Linked {
 
 export function linkOf(state: Linked): string {
   const words = new URLSearchParams();
-  for (const [name, value] of Object.entries(state) as [string, unknown][])
+  const { surfaces, ...others } = state;
+  if (surfaces) words.set("surfaces", surfaces.map(({ isovalue, color, opacity }) => `${isovalue}/${color.slice(1)}/${opacity}`).join(","));
+  for (const [name, value] of Object.entries(others) as [string, unknown][])
     if (value !== undefined) words.set(name, Array.isArray(value) ? value.map((n: number) => +n.toPrecision(6)).join(",") : String(value));
   return `#${words.toString()}`;
 }

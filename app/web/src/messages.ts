@@ -1,17 +1,19 @@
 // What the page and its worker say to each other.
 import type { Info } from "./reader/index_file";
 
-/** What is shown: one surface at one step. */
+/** What is shown: surfaces of one array at one step. */
 export interface Asked {
   array: number;
   step: number;
-  isovalue: number;
+  isovalues: number[];
   /** The array whose values color the surface; null: its own color. */
   colors: number | null;
 }
 
 export type ToWorker =
   | { kind: "open"; address: string; headers: Record<string, string> }
+  /** Opens the file again if it is another one by now. */
+  | { kind: "look" }
   /** @param coarsest levels to show, the coarsest first, the finest at last: 0 is the volume itself */
   | { kind: "find"; number: number; asked: Asked; levels: number[] };
 
@@ -25,6 +27,7 @@ export interface Found {
 }
 
 export type FromWorker =
-  | { kind: "opened"; arrays: Info[]; levels: number }
-  | { kind: "found"; number: number; asked: Asked; level: number; found: Found; last: boolean; requests: number; bytes: number }
-  | { kind: "failed"; number: number; words: string };
+  /** @param again it is a later state of the file that was open */
+  | { kind: "opened"; arrays: Info[]; levels: number; again: boolean }
+  | { kind: "found"; number: number; asked: Asked; level: number; found: Found[]; last: boolean; requests: number; bytes: number }
+  | { kind: "failed"; number: number; words: string; changed: boolean };

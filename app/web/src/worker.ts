@@ -7,7 +7,8 @@ import { newerWishes, Surfaces, type Piece } from "./search/surfaces";
 
 const scope = self as unknown as DedicatedWorkerGlobalScope;
 let source: HttpSource;
-let file: IndexFile;
+let file: IndexFile | undefined;
+let module: Module | undefined;
 let running: AbortController | null = null;
 let idle: Promise<void> = Promise.resolve();
 const known = new Map<string, Surfaces>();
@@ -38,19 +39,26 @@ function whole(pieces: Piece[]): Found {
   return found;
 }
 
-async function open(address: string, headers: Record<string, string>): Promise<void> {
-  const module = await Module.load(fetch(new URL("./isochron.wasm", import.meta.url)));
-  source = new HttpSource(address, headers);
-  file = await IndexFile.open(source, module);
+async function open(from: HttpSource, again: boolean): Promise<void> {
+  module ??= await Module.load(fetch(new URL("./isochron.wasm", import.meta.url)));
+  const opened = await IndexFile.open(from, module);
   for (const surfaces of known.values()) surfaces.close();
   known.clear();
-  say({ kind: "opened", arrays: file.arrays.map((each) => each.info), levels: file.arrays[0]!.levels.length });
+  source = from;
+  file = opened;
+  say({ kind: "opened", arrays: file.arrays.map((each) => each.info), levels: file.arrays[0]!.levels.length, again });
+}
+
+/** Goes on with a later state of the file: one with the same arrays and more steps. */
+async function look(): Promise<void> {
+  if (!file || !(await source.hasChanged())) return;
+  await open(source.anew(), true);
 }
 
 function surfacesOf(array: number, level: number): Surfaces {
   const key = `${array} ${level}`;
   let surfaces = known.get(key);
-  if (!surfaces) known.set(key, (surfaces = new Surfaces(file, file.arrays[array]!, level)));
+  if (!surfaces) known.set(key, (surfaces = new Surfaces(file!, file!.arrays[array]!, level)));
   return surfaces;
 }
 
@@ -61,25 +69,31 @@ async function find(wish: Extract<ToWorker, { kind: "find" }>, stop: AbortSignal
     if (stop.aborted) return;
     const surfaces = surfacesOf(asked.array, level);
     const colors = asked.colors === null ? undefined : surfacesOf(asked.colors, level);
-    const pieces: Piece[] = [];
-    await surfaces.find(asked.step, asked.isovalue, (piece) => pieces.push(piece), stop, colors);
-    const found = whole(pieces);
+    const found: Found[] = [];
+    for (const isovalue of asked.isovalues) {
+      const pieces: Piece[] = [];
+      await surfaces.find(asked.step, isovalue, (piece) => pieces.push(piece), stop, colors);
+      found.push(whole(pieces));
+    }
     say(
       { kind: "found", number, asked, level, found, last: level === levels.at(-1), requests: source.requests, bytes: source.bytes },
-      [found.points.buffer, found.normals.buffer, found.triangles.buffer, ...(found.values ? [found.values.buffer] : [])],
+      found.flatMap((each) => [each.points.buffer, each.normals.buffer, each.triangles.buffer, ...(each.values ? [each.values.buffer] : [])]),
     );
   }
 }
 
 function failed(number: number, error: unknown): void {
   if (error instanceof DOMException && error.name === "AbortError") return;
-  const words = error instanceof Error ? error.message : String(error);
-  say({ kind: "failed", number, words: error instanceof FileChanged ? `${words}; open the page again` : words });
+  say({ kind: "failed", number, words: error instanceof Error ? error.message : String(error), changed: error instanceof FileChanged });
 }
 
 scope.onmessage = ({ data }: MessageEvent<ToWorker>) => {
   if (data.kind === "open") {
-    idle = open(data.address, data.headers).catch((error: unknown) => failed(0, error));
+    idle = open(new HttpSource(data.address, data.headers), false).catch((error: unknown) => failed(0, error));
+    return;
+  }
+  if (data.kind === "look") {
+    idle = idle.then(look).catch(() => {}); // the next look may see more
     return;
   }
   running?.abort(new DOMException("a newer wish", "AbortError"));

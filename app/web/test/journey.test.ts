@@ -107,6 +107,57 @@ test.each<[string, () => string, RegExp]>([
   await page.close();
 });
 
+test("shows several surfaces, and the link has them all", async () => {
+  const page = await open("#surfaces=12.5/ff0000/1,6/00ff00/0.5&picked=1");
+  await settled(page, cells(0, 12.5) + cells(0, 6));
+  expect(await page.inputValue("#isovalue")).toBe("6");
+  expect(await page.inputValue("#color")).toBe("#00ff00");
+  await page.click("#add");
+  await page.fill("#isovalue", "15");
+  await page.press("#isovalue", "Enter");
+  await settled(page, cells(0, 12.5) + cells(0, 6) + cells(0, 15));
+  const again = await browser.newPage();
+  await again.goto(page.url());
+  await settled(again, cells(0, 12.5) + cells(0, 6) + cells(0, 15));
+  expect(await again.inputValue("#surface")).toBe("2");
+  await again.click("#remove");
+  await settled(again, cells(0, 12.5) + cells(0, 6));
+  await page.close();
+  await again.close();
+});
+
+test("plays a range of steps", async () => {
+  const page = await open("#isovalue=12.5");
+  await exact(page);
+  await page.fill("#from", "1");
+  await page.fill("#to", "2");
+  await page.selectOption("#speed", "24");
+  await page.click("#play");
+  const seen = new Set<string>();
+  for (let i = 0; i < 40 && seen.size < 2; ++i) {
+    await page.waitForTimeout(100);
+    seen.add(await page.inputValue("#time"));
+  }
+  await page.click("#play");
+  expect([...seen].filter((step) => step !== "0").sort()).toEqual(["1", "2"]);
+  await page.close();
+});
+
+test("shows the steps that are appended, at the last step", async () => {
+  const [grows, list] = [join(folder, "grows.isochron"), join(folder, "site.json")];
+  const build = (more: string[], steps: number[]) =>
+    execFileSync(program, ["build", ...steps.map((t) => join(folder, `t${t}.raw`)), "-o", grows, "--dims", "40", "40", "40", "--type", "f32", ...more], { stdio: "pipe" });
+  build([], [0, 1]);
+  writeFileSync(list, JSON.stringify({ files: ["grows.isochron"], follow: true }));
+  const page = await open("#isovalue=12.5&step=1");
+  await settled(page, cells(1, 12.5));
+  build(["--append"], [0, 1, 2]);
+  await settled(page, cells(2, 12.5));
+  expect(await page.inputValue("#time")).toBe("2");
+  writeFileSync(list, JSON.stringify({ files: ["ball.isochron"] }));
+  await page.close();
+});
+
 test("a link holds settings alone", async () => {
   const page = await open("#file=../../etc/passwd&isovalue=12.5&color=javascript:alert(1)");
   expect(await exact(page)).toBe(cells(0, 12.5));

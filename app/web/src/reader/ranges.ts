@@ -181,6 +181,17 @@ export class HttpSource implements ByteSource {
     }
   }
 
+  /** Whether the server says that the file is another one by now. */
+  async hasChanged(): Promise<boolean> {
+    const answer = await fetch(this.name, { method: "HEAD", cache: "no-store", headers: this.headers });
+    const tag = answer.headers.get("ETag");
+    return answer.ok && tag !== null && this.tag !== null && tag !== this.tag;
+  }
+  /** The file as it is now. */
+  anew(): HttpSource {
+    return new HttpSource(this.name, this.headers);
+  }
+
   /** A strong tag names the file's content: another one is another file. */
   private check(tag: string | null): void {
     if (!tag || tag.startsWith("W/")) return;

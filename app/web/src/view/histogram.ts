@@ -7,6 +7,7 @@ export class Histogram {
   private info: Info | null = null;
   private bars: number[] = [];
   private value = 0;
+  private others: readonly number[] = [];
   /** Called while the isovalue is dragged, and at its end. */
   changed: (isovalue: number, done: boolean) => void = () => {};
 
@@ -39,8 +40,10 @@ export class Histogram {
     });
     this.draw();
   }
-  set isovalue(value: number) {
-    this.value = value;
+  /** @param others isovalues of surfaces that are not dragged */
+  mark(isovalue: number, others: readonly number[]): void {
+    this.value = isovalue;
+    this.others = others;
     this.draw();
   }
 
@@ -58,8 +61,12 @@ export class Histogram {
       const height = most > 0 ? (Math.log1p(count) / most) * (canvas.height - 4 * ratio) : 0;
       context.fillRect((i / BARS) * canvas.width, canvas.height - height, canvas.width / BARS - ratio / 2, height);
     });
-    const x = ((this.value - info.low) / (info.high - info.low || 1)) * canvas.width;
+    const line = (value: number, width: number) => {
+      const x = ((value - info.low) / (info.high - info.low || 1)) * canvas.width;
+      context.fillRect(x - (width * ratio) / 2, 0, width * ratio, canvas.height);
+    };
     context.fillStyle = style.getPropertyValue("--accent");
-    context.fillRect(x - ratio, 0, 2 * ratio, canvas.height);
+    for (const value of this.others) line(value, 1);
+    line(this.value, 2);
   }
 }

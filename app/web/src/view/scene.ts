@@ -1,6 +1,7 @@
 // The picture: the surface, its box, light and the camera that turns around them.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { Surface } from "../link";
 import type { Found } from "../messages";
 import type { Info } from "../reader/index_file";
 import { Headset, type HeadsetWishes } from "./headset";
@@ -15,10 +16,11 @@ export class Scene {
   private readonly world = new THREE.Group();
   private readonly camera = new THREE.PerspectiveCamera(40, 1, 0.01, 100);
   private readonly controls: OrbitControls;
-  private readonly surface: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>;
+  private readonly surfaces: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>[] = [];
   private box: THREE.LineSegments | null = null;
   private wanted = false;
-  private own = "#e8d3a0";
+  private looks: readonly Surface[] = [];
+  private cuts = false;
   /** The clip plane among the data, and where that is in the world. */
   private readonly cutOfData = new THREE.Plane();
   private readonly cut = new THREE.Plane();
@@ -34,13 +36,9 @@ export class Scene {
       this.draw();
       this.moved();
     });
-    const material = new THREE.MeshStandardMaterial({ color: 0xe8d3a0, roughness: 0.45, metalness: 0, side: THREE.DoubleSide });
-    this.surface = new THREE.Mesh(new THREE.BufferGeometry(), material);
-    this.surface.frustumCulled = false;
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
     key.position.set(-0.6, 0.8, 1);
     this.camera.add(key);
-    this.world.add(this.surface);
     this.scene.add(this.world, this.camera, new THREE.HemisphereLight(0xffffff, 0x303440, 1.1));
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
@@ -81,26 +79,47 @@ export class Scene {
     this.draw();
   }
 
-  /** @param colors linear, three for each point; null: the surface has its own color */
-  show(found: Found, colors: Float32Array | null): void {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(found.points, 3));
-    geometry.setAttribute("normal", new THREE.BufferAttribute(found.normals, 3));
-    if (colors) geometry.setAttribute("color", new THREE.BufferAttribute(colors, 3));
-    this.surface.material.vertexColors = colors !== null;
-    this.surface.material.color.set(colors ? "#ffffff" : this.own);
-    this.surface.material.needsUpdate = true;
-    geometry.setIndex(new THREE.BufferAttribute(found.triangles, 1));
-    this.surface.geometry.dispose();
-    this.surface.geometry = geometry;
-    this.draw();
+  /** @param colors of each surface, linear, three for each point; null: it has its own color */
+  show(found: readonly Found[], colors: readonly (Float32Array | null)[]): void {
+    while (this.surfaces.length > found.length) {
+      const gone = this.surfaces.pop()!;
+      this.world.remove(gone);
+      gone.geometry.dispose();
+      gone.material.dispose();
+    }
+    found.forEach((each, i) => {
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute("position", new THREE.BufferAttribute(each.points, 3));
+      geometry.setAttribute("normal", new THREE.BufferAttribute(each.normals, 3));
+      const own = colors[i];
+      if (own) geometry.setAttribute("color", new THREE.BufferAttribute(own, 3));
+      geometry.setIndex(new THREE.BufferAttribute(each.triangles, 1));
+      let surface = this.surfaces[i];
+      if (!surface) {
+        surface = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ roughness: 0.45, metalness: 0, side: THREE.DoubleSide }));
+        surface.frustumCulled = false;
+        this.surfaces.push(surface);
+        this.world.add(surface);
+      }
+      surface.geometry.dispose();
+      surface.geometry = geometry;
+      surface.material.vertexColors = Boolean(own);
+    });
+    this.look(this.looks);
   }
-  color(color: string, opacity: number): void {
-    this.own = color;
-    if (!this.surface.material.vertexColors) this.surface.material.color.set(color);
-    this.surface.material.opacity = opacity;
-    this.surface.material.transparent = opacity < 1;
-    this.surface.material.needsUpdate = true;
+  /** How the surfaces look: opaque ones are drawn first, and what is behind a translucent one is seen. */
+  look(looks: readonly Surface[]): void {
+    this.looks = looks;
+    this.surfaces.forEach(({ material }, i) => {
+      const { color, opacity } = looks[i] ?? { color: "#e8d3a0", opacity: 1 };
+      material.color.set(material.vertexColors ? "#ffffff" : color);
+      material.opacity = opacity;
+      material.transparent = opacity < 1;
+      material.depthWrite = opacity >= 1 || looks.length === 1;
+      material.visible = opacity > 0;
+      material.clippingPlanes = this.cuts ? [this.cut] : null;
+      material.needsUpdate = true;
+    });
     this.draw();
   }
   /** Cuts away what lies beyond a plane: along an axis of the array at a share of its length; null: nothing. */
@@ -111,8 +130,8 @@ export class Scene {
       const along = new THREE.Vector3(...info.direction[at.axis]!);
       this.cutOfData.setFromNormalAndCoplanarPoint(along.clone().negate(), along.multiplyScalar(size * at.share));
     }
-    this.surface.material.clippingPlanes = at ? [this.cut] : null;
-    this.draw();
+    this.cuts = at !== null;
+    this.look(this.looks);
   }
   background(color: string): void {
     this.scene.background = new THREE.Color(color);
@@ -134,6 +153,12 @@ export class Scene {
       changed(inside);
     };
     return () => headset.enter();
+  }
+
+  /** Length of a pixel in the plane that the camera turns around, in the unit of the data. */
+  get pixel(): number {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    return (2 * distance * Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2))) / Math.max(1, this.renderer.domElement.clientHeight);
   }
 
   /** The picture as PNG. */

@@ -1,0 +1,231 @@
+// Reads and writes the settings in links.
+#include "app/explore/link_view.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+using Words = std::map<std::string, std::string>;
+
+/// Half the height of the page's picture at distance 1: its camera sees 40 degrees.
+const double kPageHalf = std::tan(glm::radians(20.0));
+
+std::optional<double> number_of(std::string_view text) {
+    double value = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+    return !text.empty() && read.ec == std::errc() && read.ptr == text.data() + text.size() &&
+                   std::isfinite(value)
+               ? std::optional(value)
+               : std::nullopt;
+}
+
+std::vector<std::string_view> split(std::string_view text, char at) {
+    std::vector<std::string_view> words;
+    for (;;) {
+        const std::size_t end = std::min(text.find(at), text.size());
+        words.push_back(text.substr(0, end));
+        if (end == text.size())
+            return words;
+        text.remove_prefix(end + 1);
+    }
+}
+
+/// The numbers of a list; empty if one of them is none.
+std::vector<double> numbers_of(std::string_view text) {
+    std::vector<double> numbers;
+    for (const std::string_view word : split(text, ','))
+        if (const auto number = number_of(word))
+            numbers.push_back(*number);
+        else
+            return {};
+    return numbers;
+}
+
+std::optional<glm::vec3> color_of(std::string_view text) {
+    std::uint32_t rgb = 0;
+    if (text.starts_with('#'))
+        text.remove_prefix(1);
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), rgb, 16);
+    if (text.size() != 6 || read.ec != std::errc() || read.ptr != text.data() + text.size())
+        return std::nullopt;
+    return glm::vec3(rgb >> 16, rgb >> 8 & 255, rgb & 255) / 255.0f;
+}
+std::string hex_of(const glm::vec3& color) {
+    const glm::ivec3 c = glm::ivec3(glm::round(glm::clamp(color, 0.0f, 1.0f) * 255.0f));
+    return fmt::format("{:02x}{:02x}{:02x}", c.x, c.y, c.z);
+}
+
+const std::string& word_of(const Words& words, const std::string& name) {
+    static const std::string none;
+    const auto found = words.find(name);
+    return found == words.end() ? none : found->second;
+}
+std::optional<double> number_in(const Words& words, const std::string& name) {
+    return number_of(word_of(words, name));
+}
+
+/// How the screen shows what is in front of the head.
+struct LinkSight {
+    double half = 1;     ///< half the height of the picture at distance 1
+    double distance = 1; ///< [m] to the screen
+    glm::dmat3 room_from_eye{1.0};
+    glm::dvec3 middle{0.0}; ///< of the screen, room space
+};
+LinkSight sight_of(const LinkScreen& of) {
+    const render::View view =
+        stereo::view_of(of.screen, of.head, stereo::Eye::center, 0, 0.05f, 50.0f, of.pixels);
+    const glm::dmat4 eye_from_room(view.eye_from_room);
+    glm::dvec3 middle(0.0);
+    for (const glm::vec3& corner : stereo::corners_in_room(of.screen, of.head, of.pixels))
+        middle += glm::dvec3(corner) / 4.0;
+    return {.half = 1 / static_cast<double>(view.clip_from_eye[1][1]),
+            .distance = std::max(0.1, -(eye_from_room * glm::dvec4(middle, 1)).z),
+            .room_from_eye = glm::transpose(glm::dmat3(eye_from_room)),
+            .middle = middle};
+}
+
+/// Where the page's points count from.
+glm::dvec3 first_vertex(const index::IndexFile& file) {
+    return glm::dvec3(file.info().grid.physical_from_index() * glm::dvec4(0, 0, 0, 1));
+}
+
+/// The axes of a camera of the page, whose z is up: right, up, and back to the viewer.
+glm::dmat3 page_axes(const glm::dvec3& back) {
+    const glm::dvec3 up = std::abs(back.z) < 1 - 1e-9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 right = glm::normalize(glm::cross(up, back));
+    return {right, glm::cross(back, right), back};
+}
+
+void see_as_linked(ExplorerState& state, const std::vector<double>& view,
+                   const index::IndexFile& file, const LinkScreen& screen) {
+    const glm::dvec3 origin = first_vertex(file);
+    const glm::dvec3 eye = glm::dvec3(view[0], view[1], view[2]) + origin,
+                     target = glm::dvec3(view[3], view[4], view[5]) + origin;
+    const double distance = glm::distance(eye, target);
+    if (!(distance > 0) || !std::isfinite(distance))
+        return;
+    const LinkSight sight = sight_of(screen);
+    interaction::Similarity& seen = state.room_from_physical;
+    const interaction::Similarity before = seen;
+    seen.exaggeration = 1;
+    seen.rotation = glm::normalize(
+        glm::quat_cast(sight.room_from_eye * glm::transpose(page_axes((eye - target) / distance))));
+    // At the target the page's picture is as large as this one.
+    seen.scale = sight.distance * sight.half / (distance * kPageHalf);
+    seen.translation = sight.middle - seen.scale * (seen.rotation * target);
+    if (!std::isfinite(seen.scale) || seen.scale <= 0)
+        seen = before;
+}
+
+std::vector<interaction::Isosurface> surfaces_of(const std::string& text) {
+    std::vector<interaction::Isosurface> surfaces;
+    for (const std::string_view one : split(text, ',')) {
+        const auto words = split(one, '/');
+        const auto isovalue = number_of(words[0]);
+        if (!isovalue || surfaces.size() == interaction::kMostIsosurfaces)
+            break;
+        interaction::Isosurface surface{.isovalue = *isovalue};
+        if (words.size() > 1)
+            surface.color = color_of(words[1]).value_or(surface.color);
+        if (const auto opacity = words.size() > 2 ? number_of(words[2]) : std::nullopt)
+            surface.opacity = static_cast<float>(std::clamp(*opacity, 0.0, 1.0));
+        surfaces.push_back(surface);
+    }
+    return surfaces;
+}
+
+} // namespace
+
+std::size_t array_of_link(const Words& settings, const index::IndexFile& file) {
+    const auto number = number_in(settings, "array");
+    return number && *number >= 0 && *number < static_cast<double>(file.arrays())
+               ? static_cast<std::size_t>(*number)
+               : 0;
+}
+
+ExplorerState as_linked(ExplorerState state, const Words& settings, const index::IndexFile& file,
+                        const LinkScreen& screen) {
+    const std::size_t steps = file.info().steps();
+    if (auto surfaces = surfaces_of(word_of(settings, "surfaces")); !surfaces.empty()) {
+        state.isosurfaces = std::move(surfaces);
+        state.picked = 0;
+    } else {
+        state.set_isovalue(number_in(settings, "isovalue").value_or(state.isovalue()));
+        interaction::Isosurface& surface = state.isosurfaces[state.picked];
+        surface.color = color_of(word_of(settings, "color")).value_or(surface.color);
+        if (const auto opacity = number_in(settings, "opacity"))
+            surface.opacity = static_cast<float>(std::clamp(*opacity, 0.0, 1.0));
+    }
+    if (const auto picked = number_in(settings, "picked");
+        picked && *picked >= 0 && *picked < static_cast<double>(state.isosurfaces.size()))
+        state.picked = static_cast<std::uint32_t>(*picked);
+    if (const auto step = number_in(settings, "step");
+        step && *step >= 0 && *step < static_cast<double>(steps)) {
+        const double share = std::floor(number_in(settings, "fraction").value_or(0));
+        const bool blends = share > 0 && share < index::Instant::kFractions &&
+                            *step + 1 < static_cast<double>(steps);
+        state.instant = {static_cast<std::uint32_t>(*step),
+                         blends ? static_cast<std::uint32_t>(share) : 0};
+        if (blends)
+            state.between = interaction::BetweenSteps::blend;
+    }
+    if (const auto number = number_in(settings, "colors");
+        number && *number >= 0 && *number < static_cast<double>(file.arrays())) {
+        state.coloring.by = interaction::ColorBy::value;
+        state.coloring.array = file.array(static_cast<std::size_t>(*number)).info().array;
+    }
+    if (const auto clip = numbers_of(word_of(settings, "clip"));
+        clip.size() == 2 && (clip[0] == 0 || clip[0] == 1 || clip[0] == 2) && clip[1] >= 0 &&
+        clip[1] <= 1) {
+        const int axis = static_cast<int>(clip[0]);
+        glm::dvec4 at(0, 0, 0, 1), along(0);
+        at[axis] = clip[1] * (file.info().grid.vertices[axis] - 1);
+        along[axis] = 1;
+        const glm::dmat4 physical = file.info().grid.physical_from_index();
+        state.clip = {true, glm::dvec3(physical * at),
+                      glm::normalize(glm::dvec3(physical * along))};
+    }
+    if (const auto view = numbers_of(word_of(settings, "view")); view.size() == 6)
+        see_as_linked(state, view, file, screen);
+    return state;
+}
+
+std::string link_to(const std::string& address, const ExplorerState& state,
+                    const index::IndexFile& file, const LinkScreen& screen) {
+    const interaction::Similarity& seen = state.room_from_physical;
+    const LinkSight sight = sight_of(screen);
+    const auto to_physical = [&](const glm::dvec3& room) {
+        return glm::conjugate(seen.rotation) * ((room - seen.translation) / seen.scale);
+    };
+    const glm::dvec3 back = sight.room_from_eye[2];
+    const glm::dvec3 target = to_physical(sight.middle);
+    const double distance = sight.distance * sight.half / kPageHalf / seen.scale;
+    const glm::dvec3 first = first_vertex(file), to = target - first,
+                     eye = to + glm::conjugate(seen.rotation) * back * distance;
+    std::string surfaces;
+    for (const interaction::Isosurface& each : state.isosurfaces)
+        surfaces += fmt::format("{}{:.9g}/{}/{:.3g}", surfaces.empty() ? "" : ",", each.isovalue,
+                                hex_of(each.color), each.opacity);
+    std::string link = fmt::format("{}#array={}&step={}&isovalue={:.9g}&surfaces={}&picked={}&view="
+                                   "{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}",
+                                   address, file.array_called(state.array).value_or(0),
+                                   state.shown_instant().step, state.isovalue(), surfaces,
+                                   state.picked, eye.x, eye.y, eye.z, to.x, to.y, to.z);
+    if (const std::uint32_t fraction = state.shown_instant().fraction)
+        link += fmt::format("&fraction={}", fraction);
+    if (state.coloring.by == interaction::ColorBy::value)
+        if (const auto number = file.array_called(state.coloring.array))
+            link += fmt::format("&colors={}&map={}", *number, state.coloring.map);
+    return link;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,117 @@
+// The view in a link: what is written is read again, the page's camera sees what the native picture shows, and what is
+// no setting changes nothing.
+#include "app/explore/link_view.h"
+
+#include "index/system/links/link.h"
+#include "stereo/screen.h"
+#include "tests/support/indexed.h"
+#include "tests/support/test_seed.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace isochron::app {
+namespace {
+
+const LinkScreen kScreen{{.lower_left = {-0.8f, 0.8f, -1},
+                          .upper_left = {-0.8f, 1.7f, -1},
+                          .upper_right = {0.8f, 1.7f, -1}},
+                         {{0, 1.25f, 0.2f}, {1, 0, 0, 0}},
+                         {1600, 900}};
+
+class LinkView : public testing::Test {
+  protected:
+    test_support::TestFolder folder_;
+    index::TestField field_{
+        {19, 17, 15}, 2, index::ValueType::f32, [](double x, double y, double z, double t) {
+            return std::sin(x) + y - z + t;
+        }};
+    std::shared_ptr<const index::IndexFile> opened_ = [this] {
+        index::StepValues values = field_.view();
+        values.grid.origin = {100, -20, 3};
+        return index::indexed(folder_, values);
+    }();
+    const index::IndexFile& file_ = *opened_;
+
+    /// What is read of a link that was written.
+    ExplorerState reread(const std::string& link) {
+        const std::string address = index::address_of(link);
+        return as_linked({}, index::settings_of_link(address), file_, kScreen);
+    }
+};
+
+TEST_F(LinkView, IsReadAsItWasWritten) {
+    ExplorerState state;
+    state.isosurfaces = {{1.25, {1, 0.2f, 0}, 1}, {-3, {0, 0, 1}, 0.5f}};
+    state.picked = 1;
+    state.instant = index::Instant(1);
+    const std::string link = link_to("http://h/a.isochron", state, file_, kScreen);
+    const ExplorerState read = reread(link);
+    ASSERT_EQ(read.isosurfaces.size(), 2u);
+    EXPECT_EQ(read.isosurfaces[0].isovalue, 1.25);
+    EXPECT_EQ(read.isosurfaces[1].isovalue, -3);
+    EXPECT_FLOAT_EQ(read.isosurfaces[1].opacity, 0.5f);
+    EXPECT_NEAR(read.isosurfaces[0].color.g, 0.2, 0.002);
+    EXPECT_EQ(read.picked, 1u);
+    EXPECT_EQ(read.instant.step, 1u);
+    EXPECT_EQ(link_to("http://h/a.isochron", read, file_, kScreen), link);
+}
+
+TEST_F(LinkView, ShowsPointsWhereThePagesCameraSeesThem) {
+    // The page's camera: 40 degrees high, z is up, and points count from the first vertex.
+    const glm::dvec3 eye(-30, -50, 22), target(9, 8, 7);
+    const glm::dmat4 page = glm::perspective(glm::radians(40.0), 16.0 / 9.0, 0.1, 1000.0) *
+                            glm::lookAt(eye, target, glm::dvec3(0, 0, 1));
+    const ExplorerState state =
+        reread("http://h/b.isochron#view=-30,-50,22,9,8,7&isovalue=0.5&step=1");
+    EXPECT_EQ(state.isovalue(), 0.5);
+    EXPECT_EQ(state.instant.step, 1u);
+    const render::View view = stereo::view_of(kScreen.screen, kScreen.head, stereo::Eye::center, 0,
+                                              0.05f, 50.0f, kScreen.pixels);
+    const glm::dmat4 native = glm::dmat4(view.clip_from_eye) * glm::dmat4(view.eye_from_room) *
+                              interaction::matrix(state.room_from_physical);
+    const glm::dvec3 first(file_.info().grid.physical_from_index() * glm::dvec4(0, 0, 0, 1));
+    std::mt19937 random(test_seed());
+    std::uniform_real_distribution<double> any(-1, 1);
+    const glm::dvec3 back = glm::normalize(eye - target);
+    for (int i = 0; i < 100; ++i) { // in the plane of the target, where both have the same size
+        glm::dvec3 off(any(random), any(random), any(random));
+        off = 5.0 * (off - back * glm::dot(off, back));
+        const glm::dvec4 in_page = page * glm::dvec4(target + off, 1),
+                         here = native * glm::dvec4(target + off + first, 1);
+        EXPECT_NEAR(here.x / here.w, in_page.x / in_page.w, 1e-4);
+        EXPECT_NEAR(here.y / here.w, in_page.y / in_page.w, 1e-4);
+    }
+}
+
+TEST_F(LinkView, IgnoresWhatIsNoSetting) {
+    for (const std::string words : {"isovalue=1e999&step=-1&array=7&view=1,2,3",
+                                    "isovalue=nan&step=99999999999&surfaces=,/,&picked=5",
+                                    "view=1,1,1,1,1,1&clip=7,2&colors=-1&opacity=abc",
+                                    "view=nan,1,1,1,1,1&isovalue=0x10", "%%%&&=&=;"})
+        EXPECT_EQ(
+            reread("http://h/" + std::to_string(std::hash<std::string>()(words)) + "#" + words),
+            ExplorerState())
+            << words;
+}
+
+TEST(LinkAddresses, KeepTheTokenToThemselves) {
+    using namespace index;
+    EXPECT_EQ(address_of("http://h:1/x/#token=abc&file=a%20b.isochron&step=2"),
+              "http://h:1/x/a%20b.isochron");
+    EXPECT_EQ(authorization_for("http://h:1/x/a%20b.isochron"), "Bearer abc");
+    EXPECT_EQ(authorization_for("http://h:1/y/a.isochron"), "");
+    EXPECT_EQ(authorization_for("http://h:2/x/a.isochron"), "");
+    EXPECT_EQ(settings_of_link("http://h:1/x/a%20b.isochron"),
+              (std::map<std::string, std::string>{{"step", "2"}}));
+    EXPECT_EQ(address_of("http://h/x/#file=../secret"), "http://h/x/");
+    EXPECT_EQ(address_of("run#42.isochron"), "run#42.isochron");
+    EXPECT_FALSE(is_link("httpd.isochron"));
+    EXPECT_TRUE(is_link("HTTPS://h/a.isochron"));
+}
+
+} // namespace
+} // namespace isochron::app

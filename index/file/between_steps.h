@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -28,6 +29,13 @@ class BlendedRanks {
                  const Blend& blend, std::uint32_t n, std::span<const double> isovalues = {});
 
     const LevelMapPtr& levels() const { return levels_; }
+    /// Leaves only the bricks of a whole step whose blends may hold active cells: all others hold
+    /// none. @param now, next as from `build_bricks` @param cut among `levels()`
+    /// @param found gets the numbers of those that are left, ascending
+    std::vector<std::uint8_t> candidates(std::span<const std::uint8_t> now,
+                                         std::span<const std::uint8_t> next,
+                                         const LevelMap::Cut& cut,
+                                         std::vector<std::uint32_t>& found) const;
     /// @param low, high ranks of some values, at the first and at the second step; replaced by the
     ///        ranks of their blends @param low_next, high_next the second step's
     void blend(std::span<std::uint8_t> low, std::span<std::uint8_t> high,
@@ -40,9 +48,46 @@ class BlendedRanks {
                                                   const Blend& blend);
 
   private:
-    using Table = std::vector<std::uint8_t>; ///< by both ranks
+    /// The rank of a blend by the ranks of its two values.
+    struct Table {
+        /// Of a threshold: by the first rank the lowest second one with which the blend is there.
+        using Reach = std::array<std::uint16_t, LevelMap::kMaxLevels>;
+        std::vector<Reach> few;        ///< of all thresholds
+        std::vector<std::uint8_t> all; ///< by both ranks, where there is no `few`
+        /// By threshold of `few`: the lowest first rank, and the lowest second one, whose values
+        /// are there.
+        std::vector<std::array<std::uint16_t, 2>> alone;
+
+        /// @param now, next values of the ranks, monotone @param thresholds of blends, ascending
+        Table(std::span<const double> now, std::span<const double> next, std::uint32_t n,
+              std::span<const double> thresholds);
+        std::uint8_t operator()(std::uint8_t now_rank, std::uint8_t next_rank) const {
+            if (!all.empty())
+                return all[now_rank * LevelMap::kMaxLevels + next_rank];
+            unsigned rank = 0;
+            for (const Reach& reach : few)
+                rank += next_rank >= reach[now_rank] ? 1 : 0;
+            return static_cast<std::uint8_t>(rank);
+        }
+    };
+    static Table table_of(const LevelMap& now, const LevelMap& next, const Scaling& scaling,
+                          std::uint32_t n, std::span<const double> thresholds, bool of_last);
+
+    /// Blends the bounds of one brick or chunk.
+    void blend(std::uint8_t& low, std::uint8_t& high, std::uint8_t low_next,
+               std::uint8_t high_next) const {
+        if (low > high || low_next > high_next) { // no cell without missing values
+            low = 255;
+            high = 0;
+            return;
+        }
+        const std::uint8_t of_low = low;
+        low = reversed_ ? (*low_)(high, high_next) : (*low_)(low, low_next);
+        high = reversed_ ? (*high_)(of_low, low_next) : (*high_)(high, high_next);
+    }
+
     LevelMapPtr levels_;
-    Table low_, high_;
+    std::optional<Table> low_, high_;
     bool reversed_; ///< larger stored values are smaller scaled ones
 };
 
@@ -60,6 +105,7 @@ class BetweenSteps {
     BetweenSteps(const ChunkStore& store, Instant at, const Blend& blend);
 
     const Blend& kind() const { return blend_; }
+    const BlendedRanks& ranks() const;
     LevelMapPtr levels() const { return ranks().levels(); }
     ChunkLayerPtr layer(std::uint32_t layer) const;
     std::vector<ChunkPtr> chunks(std::uint32_t layer, std::span<const std::uint32_t> places,
@@ -76,7 +122,6 @@ class BetweenSteps {
                             const ChunkStore* store, const Blend& blend);
 
   private:
-    const BlendedRanks& ranks() const;
     void blend_bricks(const Chunk& now, const Chunk& next, Chunk& out) const;
     ChunkPtr blended(const Chunk& now, const Chunk& next) const;
 

@@ -102,6 +102,8 @@ class StepView {
     /// Between two steps, none is read for it alone.
     bool was_worked_on() const { return between_ || store_->was_worked_on(at_.step); }
     const ChunkStore& store() const { return *store_; }
+    /// By chunks between two steps, these steps; else null.
+    const BetweenSteps* between_steps() const { return by_chunks() ? between_.get() : nullptr; }
 
   private:
     void set_between(std::span<const double> isovalues);

@@ -4,6 +4,7 @@
 #include "index/scan/bricks.h"
 #include "index/scan/scan.h"
 #include "index/search/id_sort.h"
+#include "index/search/near_blend.h"
 #include "index/search/whole_layers.h"
 #include "index/surface/cell_set.h"
 #include "index/system/parallel.h"
@@ -55,7 +56,10 @@ class PartsSearch {
             return true;
         if (!step_.by_chunks())
             return order_.staying && cut_ ? others_of_whole() : whole();
-        return cut_ ? by_candidates() : scan_layers();
+        if (!cut_)
+            return scan_layers();
+        return !order_.only && !order_.staying && NearBlend::worth(step_) ? by_blends()
+                                                                          : by_candidates();
     }
 
   private:
@@ -143,6 +147,31 @@ class PartsSearch {
         return work_.for_each_layer(step_, places, {}, scan_slab, work_.threads(step_), stop_);
     }
 
+    /// Searches between two steps that are in memory.
+    bool by_blends() {
+        constexpr std::size_t kFew = 8192; ///< bricks for which threads are not worth their start
+        const NearBlend blends(step_, *cut_, stop_);
+        const std::uint32_t layers = blends.layers();
+        const unsigned threads = blends.candidates() < kFew ? 1 : std::min(layers, thread_count(0));
+        const auto for_each_layer = [&](const auto& work) {
+            parallel_for(layers, threads,
+                         [&](std::size_t layer, unsigned) {
+                             stop_if_asked(stop_);
+                             work(static_cast<std::uint32_t>(layer));
+                         },
+                         {});
+        };
+        if (blends.candidates() > 0)
+            for_each_layer([&](std::uint32_t layer) { blends.blend(layer); });
+        for_each_layer([&](std::uint32_t layer) {
+            if (blends.has_candidates(layer))
+                work_on(blends.part(layer), layer, results_.begin(), Clock::now());
+            else
+                results_.add(layer, {});
+        });
+        return !stop_.stop_requested();
+    }
+
     bool by_candidates() {
         const std::uint32_t layers = StepSlab::layers(step_.grid());
         const bool may_need_all =
@@ -189,8 +218,8 @@ class PartsSearch {
                  Clock::time_point begun) {
         std::vector<CellId>& ids = result.cells.ids;
         if (cut_) {
-            result.cells.candidates =
-                search_bricks(part.cells, *levels_, part.bricks, order_.query, ids);
+            const auto search = part.sparse ? test_bricks : search_bricks;
+            result.cells.candidates = search(part.cells, *levels_, part.bricks, order_.query, ids);
             stop_if_asked(stop_);
             sort_ids(ids, part.cells.grid.cell_count(), cells_of_brick_layer(part.cells.grid));
         } else {

@@ -30,7 +30,7 @@ void shade_places(const ChunkCube& cube, const Query& query, std::span<const Pla
         const std::uint32_t x = first[0] + cells[i] % kChunkEdge,
                             y = first[1] + cells[i] / kChunkEdge % kChunkEdge,
                             z = first[2] + cells[i] / kChunkEdge / kChunkEdge;
-        if constexpr (Shaders<T>::kSmall) {
+        if constexpr (Shaders<T>::kFast) {
             // Numbers are unsigned: at 0 this is false, too.
             const bool inner = x - 1 < n[0] - 3 && y - 1 < n[1] - 3 && z - 1 < n[2] - 3;
             if (inner && shaders.float_is_enough && n[0] > 3 && n[1] > 3 && n[2] > 3) {

@@ -43,8 +43,9 @@ class IndexSearch {
         } catch (const Stopped&) {
             return false;
         }
-        if (!step.between())
-            file_->chunks().worked_on(step.at().step);
+        file_->chunks().worked_on(step.at().step);
+        if (step.between())
+            file_->chunks().worked_on(step.at().step + 1);
         return true;
     }
 

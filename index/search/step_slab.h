@@ -29,6 +29,7 @@ struct StepPart {
     CellId first_around = 0;       ///< id in the step of the cell with id 0 in `around`
     std::uint32_t first_plane = 0; ///< z in the step of plane 0 of `around`
     std::span<const std::uint8_t> bricks = {}; ///< bricks of `cells`; empty: unknown
+    bool sparse = false;      ///< values have a meaning in bricks that may hold active cells alone
     StepSlab* slab = nullptr; ///< the slab that holds it, and has to fill what lies around cells
 
     /// The cells between two planes of a part without a slab.

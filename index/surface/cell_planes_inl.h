@@ -310,6 +310,94 @@ class ValueBatch {
     std::array<std::array<std::int32_t, kBatch>, kWords> words_{};
 };
 
+/// A batch of inner cells of whole numbers of 32 bits, as blends of smaller ones are, too. All sums of
+/// differences are exact in `double`, and rounded once.
+template <class T>
+class WordBatch {
+  public:
+    using Maker = PlaneMaker<float>;
+
+    WordBatch(const Grid& grid, double level)
+        : row_(grid.vertices[0]), slice_(row_ * std::ptrdiff_t{grid.vertices[1]}), level_(level) {}
+
+    /// @param v the cell's first vertex
+    HWY_INLINE void set(std::size_t slot, const T* v) {
+        const std::array<const T*, 4> edges{v, v + row_, v + slice_, v + row_ + slice_};
+        for (std::size_t edge = 0; edge < edges.size(); ++edge)
+            std::memcpy(&along_[edge][4 * slot], edges[edge] - 1, 4 * sizeof(T));
+        const std::array<const T*, 8> around{
+            v - row_,   v + slice_ - row_, v + 2 * row_,   v + slice_ + 2 * row_,
+            v - slice_, v + row_ - slice_, v + 2 * slice_, v + row_ + 2 * slice_};
+        for (std::size_t edge = 0; edge < around.size(); ++edge)
+            std::memcpy(&outer_[edge][2 * slot], around[edge], 2 * sizeof(T));
+    }
+
+    HWY_INLINE void make(const Maker& maker, std::size_t slot, std::uint32_t* out) const {
+        const typename Maker::D d;
+        for (std::size_t i = 0; i < hn::Lanes(d); i += hn::Lanes(Doubles()))
+            add_up(slot + i, i);
+        const auto sum = [&](std::size_t of) HWY_ATTR { return hn::LoadU(d, sums_[of].data()); };
+        maker.write({sum(0), sum(1), sum(2)}, {sum(3), sum(4), sum(5)}, sum(6), out);
+    }
+
+  private:
+    using Doubles = hn::ScalableTag<double>;
+    using Words = hn::Rebind<T, Doubles>;
+    using V = hn::Vec<Doubles>;
+    static constexpr std::size_t kMostLanes = 64;
+
+    /// Sums of some cells, at a scale at which `float` can multiply four of them.
+    HWY_INLINE void add_up(std::size_t slot, std::size_t to) const {
+        const Doubles d;
+        V x = hn::Zero(d);
+        std::array<V, 2> edges[2]; // by y, and z: the sum of a row's two vertices of the cell
+        V own_x = hn::Zero(d);
+        for (std::size_t edge = 0; edge < 4; ++edge) {
+            hn::Vec<Words> a, b, c, e;
+            hn::LoadInterleaved4(Words(), along_[edge].data() + 4 * slot, a, b, c, e);
+            const V first = hn::PromoteTo(d, b), second = hn::PromoteTo(d, c);
+            const V inner = hn::Sub(second, first);
+            own_x = hn::Add(own_x, inner);
+            x = hn::Add(x, hn::Add(hn::Sub(second, hn::PromoteTo(d, a)),
+                                   hn::Sub(hn::PromoteTo(d, e), first)));
+            edges[edge / 2][edge % 2] = hn::Add(first, second);
+        }
+        const auto outer = [&](std::size_t edge) HWY_ATTR {
+            hn::Vec<Words> a, b;
+            hn::LoadInterleaved2(Words(), outer_[edge].data() + 2 * slot, a, b);
+            return hn::Add(hn::PromoteTo(d, a), hn::PromoteTo(d, b));
+        };
+        const auto above_below = [&](std::size_t edge) HWY_ATTR {
+            return hn::Sub(hn::Add(outer(edge + 2), outer(edge + 3)),
+                           hn::Add(outer(edge), outer(edge + 1)));
+        };
+        const V low_y = hn::Add(edges[0][0], edges[1][0]),
+                high_y = hn::Add(edges[0][1], edges[1][1]);
+        const V low_z = hn::Add(edges[0][0], edges[0][1]),
+                high_z = hn::Add(edges[1][0], edges[1][1]);
+        const V own_y = hn::Sub(high_y, low_y), own_z = hn::Sub(high_z, low_z);
+        const V rise = hn::Sub(hn::Set(d, 8 * level_), hn::Add(low_y, high_y));
+        const auto keep = [&](std::size_t of, V value) HWY_ATTR {
+            const hn::Rebind<float, Doubles> floats;
+            hn::StoreU(hn::DemoteTo(floats, hn::Mul(value, hn::Set(d, 0x1p-16))), floats,
+                       sums_[of].data() + to);
+        };
+        keep(0, x);
+        keep(1, hn::Add(own_y, above_below(0)));
+        keep(2, hn::Add(own_z, above_below(4)));
+        keep(3, own_x);
+        keep(4, own_y);
+        keep(5, own_z);
+        keep(6, rise);
+    }
+
+    std::ptrdiff_t row_, slice_;
+    double level_;
+    std::array<std::array<T, 4 * kBatch>, 4> along_{};
+    std::array<std::array<T, 2 * kBatch>, 8> outer_{};
+    mutable std::array<std::array<float, kMostLanes>, 7> sums_{};
+};
+
 /// Collects cells, and makes their planes when a batch is full.
 template <class Batch>
 class Shader {
@@ -348,8 +436,10 @@ constexpr double kFloatIsEnough = 1e-4;
 template <class T>
 class Shaders {
   public:
-    static constexpr bool kSmall = sizeof(T) <= 2;
-    using Fast = ValueBatch<std::conditional_t<kSmall, T, std::uint8_t>>;
+    /// Whether inner cells have a faster way.
+    static constexpr bool kFast = sizeof(T) <= 4 && std::is_integral_v<T>;
+    using Fast = std::conditional_t<kFast && sizeof(T) == 4, WordBatch<T>,
+                                    ValueBatch<std::conditional_t<kFast, T, std::uint8_t>>>;
 
     Shaders(const StepValues& values, double isovalue)
         : Shaders(values, scaled_matrix(values), stored_value(values.scaling, isovalue)) {}
@@ -380,7 +470,7 @@ class Shaders {
     }
     Shaders(const StepValues& values, const Matrix& scaled, double level)
         : regular(!values.grid.rectilinear()),
-          float_is_enough(kSmall && scaled.smallest >= kFloatIsEnough && regular),
+          float_is_enough(kFast && scaled.smallest >= kFloatIsEnough && regular),
           fast(Fast(values.grid, level), {scaled.matrix, values.scaling.slope < 0}), level_(level),
           exact_({}, {scaled.matrix, values.scaling.slope < 0}) {}
 

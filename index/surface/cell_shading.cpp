@@ -93,7 +93,7 @@ bool shade_values(const StepValues& values, const Query& query, std::span<const 
         const std::uint32_t x = walk.x();
         points[i] = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
                      static_cast<std::uint16_t>(z), 0, 0};
-        if constexpr (Shaders<T>::kSmall)
+        if constexpr (Shaders<T>::kFast)
             if (x - 1u < inner_width) { // false for x = 0, too, as numbers are unsigned
                 shaders.fast.add(points[i].plane, of_row + x);
                 continue;

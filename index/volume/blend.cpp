@@ -170,20 +170,39 @@ void blend_double(const double* a, const double* b, std::size_t count, std::uint
 template <class T>
 void blend_whole(const T* a, const T* b, std::size_t count, std::uint32_t n,
                  std::uint32_t lowered_by, std::int32_t* out) {
+    const hn::ScalableTag<std::int32_t> d;
+    const hn::Rebind<T, decltype(d)> stored;
     const std::uint32_t of_a = Instant::kFractions - n;
-    for (std::size_t i = 0; i < count; ++i)
+    const auto weight_a = hn::Set(d, static_cast<std::int32_t>(of_a)),
+               weight_b = hn::Set(d, static_cast<std::int32_t>(n)),
+               lowered = hn::Set(d, static_cast<std::int32_t>(lowered_by));
+    std::size_t i = 0;
+    for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
+        const auto first = hn::Mul(hn::PromoteTo(d, hn::LoadU(stored, a + i)), weight_a);
+        const auto second = hn::Mul(hn::PromoteTo(d, hn::LoadU(stored, b + i)), weight_b);
+        hn::StoreU(hn::Sub(hn::Add(first, second), lowered), d, out + i);
+    }
+    for (; i < count; ++i)
         out[i] = static_cast<std::int32_t>(of_a * static_cast<std::uint32_t>(a[i]) +
                                            n * static_cast<std::uint32_t>(b[i]) - lowered_by);
 }
 
 // Functions that are chosen at run time cannot be templates.
-void blend_whole_numbers(ValueType type, const std::byte* a, const std::byte* b, std::size_t count,
-                         std::uint32_t n, std::uint32_t lowered_by, std::int32_t* out) {
+void blend_whole_numbers(ValueType type, const std::byte* a, const std::byte* b,
+                         std::span<const Blend::Run> runs, std::uint32_t n,
+                         std::uint32_t lowered_by, std::int32_t* out) {
     visit_value_type(type, [&]<class T>(std::type_identity<T>) {
         if constexpr (sizeof(T) <= 2)
-            blend_whole(reinterpret_cast<const T*>(a), reinterpret_cast<const T*>(b), count, n,
-                        lowered_by, out);
+            for (const Blend::Run& run : runs)
+                blend_whole(reinterpret_cast<const T*>(a) + run.first,
+                            reinterpret_cast<const T*>(b) + run.first, run.count, n, lowered_by,
+                            out + run.first);
     });
+}
+void blend_sided_runs(const float* a, const float* b, std::span<const Blend::Run> runs,
+                      std::uint32_t n, std::span<const Blend::Side> sides, float* out) {
+    for (const Blend::Run& run : runs)
+        blend_sided(a + run.first, b + run.first, run.count, n, sides, out + run.first);
 }
 
 } // namespace
@@ -195,7 +214,7 @@ namespace isochron::index {
 namespace {
 
 HWY_EXPORT(blend_single);
-HWY_EXPORT(blend_sided);
+HWY_EXPORT(blend_sided_runs);
 HWY_EXPORT(blend_double);
 HWY_EXPORT(blend_whole_numbers);
 
@@ -299,31 +318,41 @@ void Blend::stay_single() {
 
 void Blend::operator()(std::span<const std::byte> a, std::span<const std::byte> b,
                        std::byte* out) const {
-    const std::size_t count = a.size() / size_of(stored_);
+    const Run all{0, a.size() / size_of(stored_)};
+    (*this)(a.data(), b.data(), {&all, 1}, out);
+}
+
+void Blend::operator()(const std::byte* a, const std::byte* b, std::span<const Run> runs,
+                       std::byte* out) const {
     if (type_ == ValueType::i32) {
         HWY_DYNAMIC_DISPATCH(blend_whole_numbers)
-        (stored_, a.data(), b.data(), count, n_, stored_ == ValueType::u16 ? kHalf : 0,
+        (stored_, a, b, runs, n_, stored_ == ValueType::u16 ? kHalf : 0,
          reinterpret_cast<std::int32_t*>(out));
         return;
     }
     if (type_ == ValueType::f32) {
-        HWY_DYNAMIC_DISPATCH(blend_sided)
-        (reinterpret_cast<const float*>(a.data()), reinterpret_cast<const float*>(b.data()), count,
-         n_, std::span(sides_).first(count_), reinterpret_cast<float*>(out));
+        HWY_DYNAMIC_DISPATCH(blend_sided_runs)
+        (reinterpret_cast<const float*>(a), reinterpret_cast<const float*>(b), runs, n_,
+         std::span(sides_).first(count_), reinterpret_cast<float*>(out));
         return;
     }
-    auto* const to = reinterpret_cast<double*>(out);
+    for (const Run& run : runs)
+        blend_doubles(a + run.first * size_of(stored_), b + run.first * size_of(stored_), run.count,
+                      reinterpret_cast<double*>(out) + run.first);
+}
+
+void Blend::blend_doubles(const std::byte* a, const std::byte* b, std::size_t count,
+                          double* to) const {
     if (stored_ == ValueType::f32 && stored_scaling_ == Scaling{}) {
         HWY_DYNAMIC_DISPATCH(blend_single)
-        (reinterpret_cast<const float*>(a.data()), reinterpret_cast<const float*>(b.data()), count,
-         n_, to);
+        (reinterpret_cast<const float*>(a), reinterpret_cast<const float*>(b), count, n_, to);
         return;
     }
     constexpr std::size_t kTogether = 512;
     std::array<double, kTogether> scaled_a, scaled_b;
     visit_value_type(stored_, [&]<class T>(std::type_identity<T>) {
-        const auto* from_a = reinterpret_cast<const T*>(a.data());
-        const auto* from_b = reinterpret_cast<const T*>(b.data());
+        const auto* from_a = reinterpret_cast<const T*>(a);
+        const auto* from_b = reinterpret_cast<const T*>(b);
         for (std::size_t first = 0; first < count; first += kTogether) {
             const std::size_t some = std::min(kTogether, count - first);
             for (std::size_t i = 0; i < some; ++i) {

@@ -41,6 +41,14 @@ class Blend {
     /// @param out as many values of `type()`, aligned
     void operator()(std::span<const std::byte> a, std::span<const std::byte> b,
                     std::byte* out) const;
+    /// Some values next to each other, by their numbers.
+    struct Run {
+        std::size_t first, count;
+    };
+    /// Blends these runs alone.
+    /// @param a, b, out as above, of all values
+    void operator()(const std::byte* a, const std::byte* b, std::span<const Run> runs,
+                    std::byte* out) const;
 
     /// An isovalue among f32. All of these numbers are f32 values, or infinite.
     struct Side {
@@ -50,6 +58,7 @@ class Blend {
 
   private:
     void stay_single();
+    void blend_doubles(const std::byte* a, const std::byte* b, std::size_t count, double* to) const;
 
     ValueType stored_, type_;
     Scaling stored_scaling_, scaling_;

@@ -3,11 +3,13 @@
 #pragma once
 
 #include "index/file/chunks/byte_cache.h"
+#include "index/system/huge_pages.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 namespace isochron::index {
@@ -56,6 +58,26 @@ struct BlendMemory {
     static constexpr std::uint64_t kRankBytes = 2 << 20; ///< bytes of ranks: about 15 moments
     std::shared_ptr<SpareMemory> spare;                  ///< blended chunks may outlive the store
     ByteCache ranks;                                     ///< by the number of the moment
+
+    /// Memory of a step's blends, with undefined contents, where the last one given back is as large.
+    LargeMemory take_step(std::uint64_t bytes) {
+        {
+            const std::scoped_lock lock(mutex_);
+            if (step_ && step_bytes_ == bytes)
+                return std::move(step_);
+        }
+        return large_memory(bytes);
+    }
+    void give_back_step(LargeMemory memory, std::uint64_t bytes) {
+        const std::scoped_lock lock(mutex_);
+        step_ = std::move(memory);
+        step_bytes_ = bytes;
+    }
+
+  private:
+    std::mutex mutex_;
+    LargeMemory step_;
+    std::uint64_t step_bytes_ = 0;
 };
 
 } // namespace isochron::index

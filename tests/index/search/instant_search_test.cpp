@@ -7,6 +7,7 @@
 #include "index/search/cell_change.h"
 #include "index/search/index_search.h"
 #include "index/search/layer_search.h"
+#include "index/search/near_blend.h"
 #include "index/search/surface_mesh.h"
 #include "index/surface/cell_colors.h"
 #include "index/volume/blend.h"
@@ -126,6 +127,59 @@ TEST_P(InstantSearch, FindsTheCellsOfTheRuleAtRandomInstants) {
                     << isovalue;
         }
     }
+}
+
+/// Values of each step that have nothing to do with each other, the outermost ones among them.
+void fill_at_random(TestField& field, ValueType type, std::mt19937& random) {
+    visit_value_type(type, [&]<class T>(std::type_identity<T>) {
+        for (std::size_t step = 0; step < field.view().steps; ++step)
+            for (std::size_t i = 0; i < field.view().grid.vertex_count(); ++i) {
+                T& value = field.at<T>(step, i);
+                switch (random() % 16) {
+                case 0: value = std::numeric_limits<T>::lowest(); break;
+                case 1: value = std::numeric_limits<T>::max(); break;
+                case 2: value = std::numeric_limits<T>::quiet_NaN(); break; // or 0
+                case 3: value = std::numeric_limits<T>::infinity(); break;  // or 0
+                case 4: break;                                              // as neighbors are
+                default: value = static_cast<T>(static_cast<double>(random() % 100)); break;
+                }
+            }
+    });
+}
+
+TEST_P(InstantSearch, FindsTheSameOfWholeStepsAndOfChunksWhateverTheValuesAre) {
+    const auto [type, scaling] = GetParam();
+    std::mt19937 random(test_seed());
+    const test_support::TestFolder folder;
+    TestField field({35, 21, 34}, 3, type, scaled(turbulence(random), 20, 50), scaling);
+    const auto turbulent = built(folder.path(), field);
+    const auto check = [&](const std::shared_ptr<const IndexFile>& whole) {
+        // Steps are no small part of this cache, so chunks alone are read.
+        const auto chunks = IndexFile::open(whole->name(), field.view().step_bytes(0).size());
+        for (const std::uint32_t fraction :
+             {1u, 65535u, 32768u, 1 + static_cast<std::uint32_t>(random() % (kWhole - 1))}) {
+            const Instant at(static_cast<std::uint32_t>(random() % 2), fraction);
+            ASSERT_TRUE(NearBlend::worth(step_of(*whole, at)));
+            ASSERT_FALSE(NearBlend::worth(step_of(*chunks, at)));
+            for (const double isovalue : isovalues_at(field.view(), at, random)) {
+                const Query query{at, isovalue};
+                const CellSetPtr one = search_in(whole, SearchMethod::bricks, Shading::cells)(query,
+                                                                                              {}),
+                                 other = search_in(chunks, SearchMethod::bricks,
+                                                   Shading::cells)(query, {});
+                ASSERT_EQ(one->ids, by_the_rule(field.view(), at, isovalue)) << at.number();
+                ASSERT_EQ(other->ids, one->ids) << at.number();
+                ASSERT_TRUE(std::ranges::equal(one->points, other->points,
+                                               [](const CellPoint& a, const CellPoint& b) {
+                                                   return std::memcmp(&a, &b, sizeof a) == 0;
+                                               }));
+                ASSERT_EQ(one->rows.size(), other->rows.size());
+            }
+        }
+    };
+    check(turbulent);
+    fill_at_random(field, type, random);
+    check(built(folder.path(), field));
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, InstantSearch,

@@ -214,6 +214,9 @@ SliceValues slice_values(const IndexFile& array, const SliceQuery& query,
                       .axis = plane.axis,
                       .columns = {},
                       .shares = {},
+                      .stored = {},
+                      .type = {},
+                      .scaling = {},
                       .outline = outline_of(grid, plane)};
     if (slice.outline.empty())
         return slice;
@@ -230,11 +233,9 @@ SliceValues slice_values(const IndexFile& array, const SliceQuery& query,
         if (runs.first[column] <= runs.last[column])
             count += runs.last[column] - runs.first[column] + 1;
     }
-    if (slice.columns.size() * sizeof(SliceValues::Column) +
-            count * (sizeof(float) + size_of(slice.type)) >
-        kMostSliceBytes)
-        throw Error(fmt::format("{}: a slice of {} values, expected at most 1 GiB of them",
-                                array.name(), count));
+    if (std::max(count, slice.columns.size()) > kMostSliceValues)
+        throw Error(fmt::format("{}: a slice of {} values, expected at most {}", array.name(),
+                                std::max(count, slice.columns.size()), kMostSliceValues));
     slice.shares.resize(count, kNoShare);
     slice.stored.resize(count * size_of(slice.type));
     const Filling filling(slice, runs);

@@ -47,17 +47,13 @@ struct SliceValues {
     Scaling scaling;
     /// Corners of the plane within the data's box, around it, in even coordinates; empty outside.
     std::vector<glm::dvec3> outline;
-
-    std::size_t bytes() const {
-        return columns.size() * sizeof(Column) + shares.size() * sizeof(float) + stored.size();
-    }
 };
 using SliceValuesPtr = std::shared_ptr<const SliceValues>;
 
 /// Stands for a missing value: NaN or infinite.
 inline constexpr float kNoShare = 3e38f;
-/// Larger slices are refused.
-inline constexpr std::size_t kMostSliceBytes = std::size_t{1} << 30;
+/// Slices of more values or columns are refused: drivers hold no more in a buffer.
+inline constexpr std::size_t kMostSliceValues = std::size_t{1} << 27;
 
 /// @param array the array of the query
 /// @throws Error when chunks cannot be read or are damaged, and for too large a slice

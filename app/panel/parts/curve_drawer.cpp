@@ -34,7 +34,7 @@ constexpr float kWithTable = 560.0f; ///< width of a drawer that has room for th
 /// A number that can be plotted.
 struct Choice {
     std::string name;      ///< as in CurveDrawer
-    std::size_t number;    ///< of the curves' numbers
+    std::size_t number;    ///< its place in the curves' numbers
     std::string unit, tip; ///< its unit, and what it means
 };
 

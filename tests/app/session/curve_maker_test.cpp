@@ -206,7 +206,7 @@ TEST_F(CurveMakerTest, HasTheNumbersOfIsochronMeasure) {
               "step,fraction,time,isovalue,cells,area,volume,volume-below,pieces,bodies,euler,"
               "border-edges");
     std::getline(table, line);
-    std::getline(table, line); // of the other surface
+    std::getline(table, line); // the other surface
     EXPECT_THAT(line, HasSubstr("0,0,0,-0.1,"));
     std::istringstream fields(line);
     std::vector<std::string> all;

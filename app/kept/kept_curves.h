@@ -16,7 +16,7 @@ namespace isochron::app {
 class KeptCurves {
   public:
     static constexpr std::size_t kMostFiles = 256;
-    static constexpr std::uint64_t kMostBytes = 64 << 20; ///< of all files together
+    static constexpr std::uint64_t kMostBytes = 64 << 20; ///< all files together
 
     /// @param folder made where it is missing; other files in it stay
     explicit KeptCurves(std::filesystem::path folder, std::size_t most_files = kMostFiles,

@@ -90,7 +90,7 @@ inline constexpr std::string_view kMarkCurve = "mark";
 
 /// Numbers of the surfaces over all steps.
 struct PanelCurves {
-    std::vector<StepCurvePtr> surfaces{}; ///< of each surface; null: it is hidden, or there is none
+    std::vector<StepCurvePtr> surfaces{}; ///< one a surface; null: hidden, or not there
     StepCurvePtr mark{};                  ///< the value at the mark; null: none
     std::string failure{};                ///< why steps could not be measured; empty: all could
     std::function<void()> save{};         ///< writes them as a table; empty: that is not offered

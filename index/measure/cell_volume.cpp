@@ -15,7 +15,7 @@ using Place = std::array<double, 3>;
 
 /// The cut edges of a cell whose sides are 1 long.
 struct CutEdges {
-    std::array<double, kCellEdges> shares{}; ///< of the way along the edge
+    std::array<double, kCellEdges> shares{}; ///< parts of the way along the edge
     std::array<Place, kCellEdges> places{};
 
     CutEdges() = default;

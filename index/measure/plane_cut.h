@@ -44,7 +44,7 @@ class PlaneCut {
 /// What a plane leaves of a surface.
 struct CutSurface {
     std::vector<glm::dvec3> points;     ///< those of the surface, then those on cut sides
-    std::vector<float> values;          ///< of the points, as far as the surface has some
+    std::vector<float> values;          ///< values at the points, if the surface has some
     std::vector<std::uint32_t> corners; ///< three for each triangle
     std::uint64_t vertices = 0;         ///< points that triangles have
     std::uint64_t cells = 0;            ///< cells of which a triangle is left
@@ -69,8 +69,8 @@ struct CellCut {
     bool leaves_nothing() const;
 };
 
-/// The flow of (beyond / along[axis], 0, 0), with `axis` in place of x, through what the plane leaves
-/// of a flat polygon: through the plane itself there is none, so these sum up to the volume of what
+/// The flow of (beyond / along[axis], 0, 0), with `axis` in place of x, through what is left of a
+/// flat polygon: through the plane itself there is none, so these sum up to the volume of what
 /// it leaves of a body. @param polygon its corners, counter-clockwise as seen from outside
 double flow_through(std::span<const std::array<double, 3>> polygon, const CellCut& plane,
                     std::size_t axis);

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
@@ -34,7 +35,7 @@ constexpr float kWithTable = 560.0f; ///< width of a drawer that has room for th
 /// A number that can be plotted.
 struct Choice {
     std::string name;      ///< as in CurveDrawer
-    std::size_t number;    ///< of the curves' numbers
+    std::size_t number;    ///< its place in the curves' numbers
     std::string unit, tip; ///< its unit, and what it means
 };
 
@@ -97,8 +98,14 @@ Shown shown_in(const PanelModel& model) {
     return shown;
 }
 
+/// Counts have all their digits.
 std::string number_text(double value, const std::string& unit) {
-    return std::isfinite(value) ? with_unit(value, unit) : "-";
+    constexpr double kMostCounted = 1e15;
+    if (!std::isfinite(value))
+        return "-";
+    if (!unit.empty() || value != std::floor(value) || std::abs(value) > kMostCounted)
+        return with_unit(value, unit);
+    return (value < 0 ? "-" : "") + grouped(static_cast<std::uint64_t>(std::abs(value)));
 }
 
 double at_step(const StepCurve& curve, std::size_t number, std::uint32_t step) {
@@ -123,6 +130,8 @@ void state_of(const PanelModel& model, const Shown& shown, float width) {
     else
         for (const Drawn& each : shown.surfaces)
             count(*each.curve);
+    if (width <= 0)
+        return;
     ImGui::AlignTextToFramePadding();
     if (!model.curves.failure.empty())
         fitted_text(model.curves.failure, width, color_of(Ink::warning));
@@ -333,6 +342,9 @@ void curve_drawer(const PanelModel& model, Commands& commands) {
     const Shown shown = shown_in(model);
     header(model, shown, commands);
     const ImVec2 room = ImGui::GetContentRegionAvail();
+    constexpr float kLeastHeight = 40.0f, kLeastWidth = 120.0f; // for a plot
+    if (room.x < kLeastWidth || room.y < kLeastHeight)
+        return;
     const float gap = 12.0f;
     const auto columns = static_cast<float>(std::clamp<std::size_t>(shown.surfaces.size(), 1, 4));
     const float beside =

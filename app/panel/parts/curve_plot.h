@@ -25,7 +25,7 @@ struct PlottedLevel {
     ImU32 color;
 };
 struct PlottedCurves {
-    std::span<const double> times; ///< of the steps, increasing; not empty
+    std::span<const double> times; ///< times of the steps, increasing; not empty
     std::string time_unit, unit;
     std::vector<PlottedLine> lines;
     std::vector<PlottedLevel> levels;

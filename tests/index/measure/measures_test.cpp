@@ -564,7 +564,7 @@ TEST_F(MeasuresTest, LeftOfABallByAPlaneAreThoseOfItsCap) {
                           });
     SurfaceMeasures measuring(indexed(folder_, field.view()));
     for (const double off : {-9.0, -3.0, 0.0, 5.5, 11.0}) {
-        const double height = radius + off; // of the cap that is left
+        const double height = radius + off; // that of the cap that is left
         const CutPlane plane{middle + off * normal, 3.0 * normal};
         const MeasuredSurface left =
             *measuring.measure({Instant(0), 0.0}, {.clip = plane, .pieces = true});

@@ -68,6 +68,7 @@ std::vector<std::string> replay_fixed_step(Session& session,
     std::vector<std::string> different;
     expect_arrays(session, recording);
     Commands waiting; // of skipped frames
+    bool waits = false;
     for (std::size_t number = 0; number < recording.frames.size(); ++number) {
         const interaction::RecordedFrame& frame = recording.frames[number];
         if (options.from_devices) {
@@ -81,11 +82,13 @@ std::vector<std::string> replay_fixed_step(Session& session,
         Commands commands = obeyed(frame.commands, options);
         if (skips && skips(number)) {
             interaction::merge(waiting, commands);
+            waits = true;
         } else {
-            if (!waiting.empty())
-                interaction::merge(waiting, std::exchange(commands, {}));
-            session.frame(frame.input, waiting.empty() ? commands : std::exchange(waiting, {}),
-                          Waiting::for_cells, latch_of(frame));
+            if (std::exchange(waits, false)) {
+                interaction::merge(waiting, commands);
+                commands = std::exchange(waiting, {});
+            }
+            session.frame(frame.input, commands, Waiting::for_cells, latch_of(frame));
             expect_cells(session);
         }
         done(number, frame);

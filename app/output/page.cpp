@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdint>
 #include <string_view>
 
@@ -40,15 +41,22 @@ void expect_done(const std::string& error, const std::string& about) {
 
 /// The keywords of a PDF of cairo; empty: it has none.
 std::string note_in_pdf(const std::string& bytes) {
-    constexpr std::string_view kKey = "/Keywords (";
-    std::size_t at = bytes.rfind(kKey);
-    if (!bytes.starts_with("%PDF-") || at == std::string::npos)
+    constexpr std::string_view kKey = "/Keywords ";
+    const std::size_t key = bytes.rfind(kKey);
+    if (!bytes.starts_with("%PDF-") || key == std::string::npos)
         return {};
+    // As cairo writes it: plain, or as UTF-16 in hexadecimal digits where a backslash is in it.
+    const std::string_view rest = std::string_view(bytes).substr(key + kKey.size());
+    constexpr std::string_view kWide = "<FEFF";
+    constexpr std::size_t kDigits = 4; // of a character
+    if (!rest.starts_with(kWide))
+        return std::string(rest.substr(1, rest.find(')') - 1));
     std::string note;
-    for (at += kKey.size(); at < bytes.size() && bytes[at] != ')'; ++at) {
-        if (bytes[at] == '\\' && at + 1 < bytes.size())
-            ++at;
-        note += bytes[at];
+    for (std::size_t at = kWide.size(); at + kDigits <= rest.size() && rest[at] != '>';
+         at += kDigits) {
+        unsigned character = 0;
+        std::from_chars(rest.data() + at, rest.data() + at + kDigits, character, 16);
+        note += static_cast<char>(character);
     }
     return note;
 }

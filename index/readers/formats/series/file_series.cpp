@@ -152,8 +152,8 @@ class FileSeries final : public VolumeSeries {
 
     std::string name(std::size_t file) const { return files_[file].path.string(); }
 
-    /// Whether `--steps` leaves the file out by its number: the first one has one step, and the times
-    /// of the others are known without them.
+    /// Whether `--steps` leaves the file out by its number: the first one has one step, and times are
+    /// known without opening the others.
     bool is_left_out(std::size_t index) const {
         if (!options_.steps || index == 0 || found_.front().steps != 1 ||
             (timed_ && !files_[index].time && !options_.time_step))

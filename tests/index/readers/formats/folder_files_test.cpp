@@ -254,7 +254,7 @@ TEST_F(UsersFolder, HasFilesWhoseArraysStandInAnyOrder) {
     EXPECT_EQ(values_of<float>(*series, 1), std::vector<float>(8, 1.0f));
 }
 
-/// Of files without times, whose numbers are their steps.
+/// Files without times, whose numbers are their steps.
 TEST_F(UsersFolder, HasFilesThatAreNotOpenedWhereStepsLeavesThemOut) {
     for (const char number : {'0', '1', '2', '4', '5'})
         nrrd(std::string("t") + number + ".nrrd", number);

@@ -50,9 +50,9 @@ class BlendedRanks {
   private:
     /// The rank of a blend by the ranks of its two values.
     struct Table {
-        /// Of a threshold: by the first rank the lowest second one with which the blend is there.
+        /// By the first rank: the lowest second one with which the blend is at a threshold or above.
         using Reach = std::array<std::uint16_t, LevelMap::kMaxLevels>;
-        std::vector<Reach> few;        ///< of all thresholds
+        std::vector<Reach> few;        ///< a Reach for each threshold
         std::vector<std::uint8_t> all; ///< by both ranks, where there is no `few`
         /// By threshold of `few`: the lowest first rank, and the lowest second one, whose values
         /// are there.

@@ -54,7 +54,7 @@ class NearBlend {
     std::vector<Word> marks_;                       ///< candidates, a bit each, by row of bricks
     std::vector<std::vector<std::uint8_t>> bricks_; ///< by layer, as from `build_bricks`
     std::vector<std::uint32_t> candidates_;         ///< bricks, ascending
-    std::uint64_t bytes_;                           ///< of the blends
+    std::uint64_t bytes_;                           ///< room for the blends
     LargeMemory blends_;
 };
 

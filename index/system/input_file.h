@@ -3,13 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <ext/stdio_filebuf.h>
 #include <filesystem>
 #include <istream>
 #include <memory>
+#include <mutex>
 #include <span>
+#include <streambuf>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace isochron::index {
 
@@ -28,6 +30,28 @@ FileState state_of(const std::filesystem::path& path);
 /// regular file, unreadable
 int open_regular(const std::filesystem::path& path);
 
+/// What a file said of itself when it was seen first.
+struct FileHead {
+    FileState state;
+    std::string bytes; ///< its first ones, as many as FilesSeen keeps
+};
+
+/// While one lives, whoever looks at the beginning of a file on this thread finds it as it was first
+/// seen, without opening it again: many files are each looked at by several parts of the program.
+/// Bytes behind it are read from the file, which must not have changed since. Of several at the same
+/// time the first one keeps all.
+class FilesSeen {
+  public:
+    FilesSeen();
+    ~FilesSeen();
+    FilesSeen(const FilesSeen&) = delete;
+    FilesSeen& operator=(const FilesSeen&) = delete;
+    static constexpr std::size_t kHead = 4096; ///< bytes that formats look at first
+
+  private:
+    bool keeps_;
+};
+
 /// A file read by position. Thread-safe.
 class InputFile {
   public:
@@ -38,7 +62,8 @@ class InputFile {
     InputFile& operator=(const InputFile&) = delete;
 
     std::uint64_t size() const { return size_; } ///< [bytes] when it was opened
-    int descriptor() const { return file_; }
+    /// @throws Error: it has changed since it was seen (FilesSeen)
+    int descriptor() const;
 
     /// Reads from `offset` until `out` is full or the file ends. @return bytes read
     /// @throws Error naming the file when the system cannot read it
@@ -53,7 +78,9 @@ class InputFile {
         : path_(std::move(path)), file_(file), size_(size) {}
 
     std::filesystem::path path_;
-    int file_ = -1;
+    std::shared_ptr<const FileHead> seen_; ///< null: it has been opened
+    mutable std::once_flag opened_;        ///< once more than was seen is needed
+    mutable int file_ = -1;
     std::uint64_t size_ = 0;
 };
 
@@ -64,7 +91,19 @@ class InputStream : public std::istream {
     explicit InputStream(const std::filesystem::path& path);
 
   private:
-    __gnu_cxx::stdio_filebuf<char> buffer_;
+    class Buffer : public std::streambuf {
+      public:
+        explicit Buffer(const std::filesystem::path& path) : file_(path) {}
+
+      protected:
+        int_type underflow() override;
+
+      private:
+        InputFile file_;
+        std::uint64_t next_ = 0;
+        std::vector<char> block_;
+    };
+    Buffer buffer_;
 };
 
 /// Reads a whole file that should be small.

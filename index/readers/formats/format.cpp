@@ -44,21 +44,21 @@ KnownFile description_in(const fs::path& folder) {
     std::error_code ignored;
     for (const Format& format : all_formats())
         for (const std::string_view name : format.describe_folder) {
-            KnownFile file{.given = folder, .path = folder / name};
+            KnownFile file{.given = folder, .path = folder / name, .is_folder = true};
             if (!fs::is_regular_file(file.path, ignored))
                 continue;
             recognize(file);
             if (file.format == &format)
                 return file;
         }
-    return {.given = folder, .path = folder};
+    return {.given = folder, .path = folder, .is_folder = true};
 }
 
 } // namespace
 
 std::string_view FileStart::bytes(std::size_t count) {
     if (count > asked_) {
-        asked_ = std::max<std::size_t>(count, 4096); // what all but one format look at
+        asked_ = std::max(count, FilesSeen::kHead);
         bytes_.resize(asked_);
         try {
             const InputFile file(path_);
@@ -78,7 +78,11 @@ const Format& format_named(std::string_view name) {
 
 KnownFile known_file(const fs::path& given) {
     std::error_code ignored;
-    if (fs::is_directory(given, ignored))
+    return known_file(given, fs::is_directory(given, ignored));
+}
+
+KnownFile known_file(const fs::path& given, bool is_folder) {
+    if (is_folder)
         return description_in(given);
     KnownFile file{.given = given, .path = given};
     recognize(file);

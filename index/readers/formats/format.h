@@ -99,11 +99,13 @@ struct KnownFile {
     std::filesystem::path path;     ///< for a folder that a file in it describes: this file
     const Format* format = nullptr; ///< null: unknown, or it cannot be read
     const NameEnd* end = nullptr;   ///< ending of its name; null: its content told
+    bool is_folder = false;         ///< what is given
 };
 
 /// Asks the formats for a file, by the end of its name in upper or lower case, and by its first
 /// bytes: they count where they tell another format than the name.
 KnownFile known_file(const std::filesystem::path& given);
+KnownFile known_file(const std::filesystem::path& given, bool is_folder);
 
 /// Whether the first bytes are such that a file with one of the format's ends is of it.
 bool begins_as(const Format& format, FileStart& start);

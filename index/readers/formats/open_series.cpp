@@ -16,6 +16,7 @@
 #include "index/readers/formats/series/step_order.h"
 #include "index/readers/formats/series/vector_arrays.h"
 #include "index/readers/process/reader_pool.h"
+#include "index/system/input_file.h"
 #include "index/volume/time_unit.h"
 
 #include <fmt/format.h>
@@ -280,6 +281,7 @@ std::unique_ptr<VolumeSeries> open_computed(const OpenStored& open, const OpenSt
 
 std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
                                           const ReadOptions& options, const Progress& progress) {
+    const FilesSeen seen;
     readers_of_this_process().let_read(files);
     return open_computed(
         [&](const ReadOptions& one) { return open_as_it_is(files, one, progress); },

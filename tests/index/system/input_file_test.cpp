@@ -103,6 +103,43 @@ TEST_F(InputFiles, ATextThatIsTooLargeIsNotRead) {
     EXPECT_EQ(read_text(folder_.write("b", "text"), 4), "text");
 }
 
+TEST_F(InputFiles, TheBeginningOfAFileStaysAsItWasSeen) {
+    const std::string text = "first line\nsecond\n", many(3 * FilesSeen::kHead, 'x');
+    const auto small = folder_.write("small", text), large = folder_.write("large", many);
+    const auto start_of = [](const std::filesystem::path& path, std::uint64_t offset) {
+        std::string start(10, '\0');
+        start.resize(InputFile(path).read(offset, std::as_writable_bytes(std::span(start))));
+        return start;
+    };
+    {
+        const FilesSeen seen;
+        const FileState was = state_of(small);
+        EXPECT_EQ(start_of(small, 0), "first line");
+        EXPECT_EQ(start_of(large, many.size() - 5), "xxxxx");
+        std::filesystem::remove(small); // whoever opened it again would fail
+        {
+            const FilesSeen within; // changes nothing
+        }
+        EXPECT_EQ(start_of(small, 6), "line\nsecon");
+        EXPECT_EQ(start_of(small, 15), "nd\n");
+        EXPECT_EQ(start_of(small, 99), "");
+        EXPECT_EQ(read_text(small, 100), text);
+        EXPECT_EQ(state_of(small), was);
+        InputStream stream(small);
+        std::string line;
+        std::getline(stream, line);
+        EXPECT_EQ(line, "first line");
+        std::getline(stream, line);
+        EXPECT_EQ(line, "second");
+        EXPECT_FALSE(std::getline(stream, line));
+        folder_.write("large", many + "y");
+        EXPECT_EQ(start_of(large, 0), "xxxxxxxxxx");
+        EXPECT_THROW(start_of(large, FilesSeen::kHead), Error);
+    }
+    EXPECT_THROW(start_of(small, 0), Error);
+    EXPECT_EQ(start_of(large, many.size()), "y");
+}
+
 TEST_F(InputFiles, AStateTellsWhatAFileBecame) {
     const auto path = folder_.write("a", "text");
     const FileState was = state_of(path);

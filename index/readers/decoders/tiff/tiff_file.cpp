@@ -5,6 +5,7 @@
 #include "index/readers/formats/data_stream.h"
 #include "index/readers/formats/half_float.h"
 #include "index/readers/formats/unread_fields.h"
+#include "index/system/input_file.h"
 
 #include <fmt/format.h>
 #include <tiffio.h>
@@ -13,7 +14,6 @@
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <utility>
 
 namespace isochron::index {
@@ -123,11 +123,10 @@ TiffFile::TiffFile(const std::filesystem::path& path) : name_(path.string()) {
 TiffFile::TiffFile(TiffFile&& other) noexcept
     : name_(std::move(other.name_)), file_(std::exchange(other.file_, nullptr)),
       shape_(other.shape_), description_(std::move(other.description_)),
-      software_(std::move(other.software_)),
-      lsm_record_(std::move(other.lsm_record_)), resolution_{other.resolution_[0],
-                                                             other.resolution_[1]},
-      offsets_(std::move(other.offsets_)), shaped_(other.shaped_), appended_at_(other.appended_at_),
-      page_(other.page_), piece_(std::move(other.piece_)), halves_(std::move(other.halves_)),
+      software_(std::move(other.software_)), lsm_record_(std::move(other.lsm_record_)),
+      resolution_{other.resolution_[0], other.resolution_[1]}, offsets_(std::move(other.offsets_)),
+      shaped_(other.shaped_), appended_at_(other.appended_at_), page_(other.page_),
+      piece_(std::move(other.piece_)), halves_(std::move(other.halves_)),
       resolution_unit_(other.resolution_unit_), notes_(std::move(other.notes_)) {}
 
 TiffFile::~TiffFile() {
@@ -205,12 +204,10 @@ void TiffFile::note_tags() {
 }
 
 std::string TiffFile::bytes_at(std::uint64_t offset, std::size_t count) const {
-    const std::uint64_t size = file_bytes(name_);
+    const InputFile file(name_);
+    const std::uint64_t size = file.size();
     std::string bytes(offset > size ? 0 : std::min<std::uint64_t>(count, size - offset), '\0');
-    std::ifstream file(name_, std::ios::binary);
-    file.seekg(static_cast<std::streamoff>(offset));
-    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+    bytes.resize(file.read(offset, std::as_writable_bytes(std::span(bytes))));
     return bytes;
 }
 
@@ -305,9 +302,7 @@ void TiffFile::read_stored(std::size_t page, std::uint32_t sample, std::span<std
 }
 
 void TiffFile::read_appended(std::size_t page, std::span<std::byte> out) {
-    std::ifstream file(name_, std::ios::binary);
-    file.seekg(static_cast<std::streamoff>(appended_at_ + page * out.size()));
-    if (!file.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size())))
+    if (InputFile(name_).read(appended_at_ + page * out.size(), out) < out.size())
         throw Error(fmt::format("{}: page {} cannot be read", name_, page));
     const std::size_t size = shape_.stored_bytes();
     if (TIFFIsByteSwapped(file_))

@@ -322,9 +322,10 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
     const std::string stated = fmt::format(
         "intent_code {}{}", h.intent, intent.name.empty() ? "" : fmt::format(" ({})", intent.name));
     // Components are to be on the fifth axis, but many programs write them on the fourth.
-    const std::string directions = directions_beside(path);
-    const bool diffusion = !directions.empty() && dimensions == 4 && h.dim[4] > 1;
-    const bool fourth = (intent.components || diffusion) && dimensions == 4 && h.dim[4] > 1;
+    const bool has_fourth = dimensions == 4 && h.dim[4] > 1;
+    const std::string directions = has_fourth ? directions_beside(path) : "";
+    const bool diffusion = !directions.empty();
+    const bool fourth = has_fourth && (intent.components || diffusion);
     if (diffusion)
         info.notes.push_back(
             fmt::format("{} is beside it: its fourth axis is not time but directions of diffusion",

@@ -76,7 +76,7 @@ class FileSeries final : public VolumeSeries {
             if (progress && files_.size() >= kMany && i % 64 == 0)
                 progress("opening files",
                          static_cast<double>(i) / static_cast<double>(files_.size()));
-            named(files_[i].path, [&] { add(i); });
+            named(files_[i].path, [&] { is_left_out(i) ? leave_out(i) : add(i); });
         }
         note_missing_numbers();
         if (!options_.time_step)
@@ -152,6 +152,25 @@ class FileSeries final : public VolumeSeries {
 
     std::string name(std::size_t file) const { return files_[file].path.string(); }
 
+    /// Whether `--steps` leaves the file out by its number: the first one has one step, and times are
+    /// known without opening the others.
+    bool is_left_out(std::size_t index) const {
+        if (!options_.steps || index == 0 || found_.front().steps != 1 ||
+            (timed_ && !files_[index].time && !options_.time_step))
+            return false;
+        const auto [first, last, stride] = *options_.steps;
+        return index < first || index > last || stride == 0 || (index - first) % stride != 0;
+    }
+
+    /// Counts a file without opening it.
+    void leave_out(std::size_t index) {
+        found_.push_back({.paths = {files_[index].path}, .states = {{}}, .steps = 1});
+        info_.sources.push_back(files_[index].path.filename().string());
+        info_.times.push_back(files_[index].time.value_or(static_cast<double>(places_.size())));
+        places_.push_back({index, 0, info_.times.back()});
+        left_out_ = true;
+    }
+
     void add(std::size_t index) {
         Found found{.paths = {files_[index].path}, .states = {state_of(files_[index].path)}};
         const auto head = files_.size() > 1
@@ -172,6 +191,10 @@ class FileSeries final : public VolumeSeries {
             }
         found_.push_back(std::move(found));
         expect_few_steps(places_.size() + steps, name(index));
+        if (left_out_ && steps != 1)
+            throw Error(fmt::format("{}: {} steps, expected 1 as in {}: --steps has left out files "
+                                    "before it by their number",
+                                    name(index), steps, name(0)));
         const SeriesInfo& info = told ? first_ : open_->info(); // a head that tells has no times
         if (index == 0) {
             choose_as_in(info);
@@ -375,6 +398,7 @@ class FileSeries final : public VolumeSeries {
     SeriesInfo info_;
     SeriesInfo first_; ///< from the first file, before overrides
     bool timed_ = false;
+    bool left_out_ = false;             ///< files have been, by `leave_out`
     std::vector<StepPlace> places_;     ///< place of every step
     std::vector<Found> found_;          ///< what was found in every file
     std::optional<std::uint64_t> head_; ///< head of the first file, see `vti_header_hash`

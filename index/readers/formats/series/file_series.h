@@ -24,7 +24,8 @@ std::uint64_t number_of(std::span<const FileState> states);
 
 /// Opens every file once, and checks that all agree with the first in vertices, spacing, origin,
 /// direction, array, type and scaling. Files whose header is equal to that of the first
-/// (vti_header_hash.h) are not opened. Times come from `files`, or else from the files' contents,
+/// (vti_header_hash.h) are not opened, nor are those that `options.steps` leaves out, if the first has
+/// one step and files state no times. Times come from `files`, or else from the files' contents,
 /// in the unit of the first, or else are step numbers; `options` override them.
 /// @param notes on how the files were found
 /// @param progress of many files

@@ -98,7 +98,7 @@ std::vector<KnownFile> values_within(const fs::path& folder, const ReadOptions& 
         if (path.filename().string().starts_with('.')) {
             at.disable_recursion_pending();
         } else if (is_folder || at->is_regular_file(ignored)) {
-            KnownFile file = known_file(path);
+            KnownFile file = known_file(path, is_folder);
             if (is_folder && (file.format || at.depth() >= kDeepest))
                 at.disable_recursion_pending();
             if (is_folder ? file.format != nullptr : holds_values(file, options))
@@ -315,10 +315,9 @@ FoundFiles files_in(const KnownFile& folder, const ReadOptions& options) {
 
 FoundFiles found_files(const std::vector<fs::path>& given, const ReadOptions& options) {
     FoundFiles all;
-    std::error_code ignored;
     for (const fs::path& path : given) {
         const KnownFile file = known_file(path);
-        if (!fs::is_directory(path, ignored)) {
+        if (!file.is_folder) {
             all.files.push_back(file);
             continue;
         }

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <set>
 #include <string>
 
@@ -19,7 +18,7 @@ namespace fs = std::filesystem;
 /// The header and the description of a TIFF file, of either byte order and size.
 class TiffHead {
   public:
-    explicit TiffHead(const fs::path& path) : size_(file_bytes(path)), file_(path) {}
+    explicit TiffHead(const fs::path& path) : file_(path) {}
 
     /// @return none: it cannot be told
     std::optional<bool> flat() {
@@ -65,7 +64,7 @@ class TiffHead {
         const std::uint64_t at = wide_ ? number(8, 8) : number(4, 4);
         entries_ = number(at, wide_ ? 8 : 2);
         first_ = at + (wide_ ? 8 : 2);
-        return at != 0 && at <= size_ && entries_ <= 4096;
+        return at != 0 && at <= file_.size() && entries_ <= 4096;
     }
 
     static bool describes_more(const std::string& text) {
@@ -76,10 +75,8 @@ class TiffHead {
     }
 
     std::string text_at(std::uint64_t at, std::uint64_t size) {
-        std::string text(at > size_ ? 0 : std::min(size, size_ - at), '\0');
-        file_.clear();
-        file_.seekg(static_cast<std::streamoff>(at));
-        file_.read(text.data(), static_cast<std::streamsize>(text.size()));
+        std::string text(at > file_.size() ? 0 : std::min(size, file_.size() - at), '\0');
+        file_.read(at, std::as_writable_bytes(std::span(text)));
         return text;
     }
     std::uint64_t number(std::uint64_t at, std::uint64_t size) {
@@ -91,8 +88,7 @@ class TiffHead {
         return value;
     }
 
-    std::uint64_t size_;
-    std::ifstream file_;
+    InputFile file_;
     bool big_ = false, wide_ = false;
     /// Offset and number of entries of the first page's directory.
     std::uint64_t first_ = 0, entries_ = 0;

@@ -2,6 +2,7 @@
 #include "index/readers/formats/series/vti_header_hash.h"
 
 #include "index/readers/formats/format.h"
+#include "index/system/input_file.h"
 
 #include <xxhash.h>
 
@@ -99,7 +100,8 @@ std::optional<std::uint64_t> vti_header_hash(std::string_view start, std::uint64
 std::optional<std::uint64_t> header_hash_of_file(const std::filesystem::path& file,
                                                  std::uint64_t size) {
     FileStart start(file);
-    return vti_header_hash(start.bytes(kMostHead), size);
+    const auto told = vti_header_hash(start.bytes(FilesSeen::kHead), size);
+    return told ? told : vti_header_hash(start.bytes(kMostHead), size);
 }
 
 } // namespace isochron::index

@@ -254,5 +254,37 @@ TEST_F(UsersFolder, HasFilesWhoseArraysStandInAnyOrder) {
     EXPECT_EQ(values_of<float>(*series, 1), std::vector<float>(8, 1.0f));
 }
 
+/// Files without times, whose numbers are their steps.
+TEST_F(UsersFolder, HasFilesThatAreNotOpenedWhereStepsLeavesThemOut) {
+    for (const char number : {'0', '1', '2', '4', '5'})
+        nrrd(std::string("t") + number + ".nrrd", number);
+    write("t3.nrrd", "NRRD0004\ntype: none\n\n");
+    ReadOptions options;
+    for (const auto& [steps, expected] :
+         {std::pair{std::array<std::uint64_t, 3>{0, 5, 2},
+                    std::vector{"t0.nrrd", "t2.nrrd", "t4.nrrd"}},
+          std::pair{std::array<std::uint64_t, 3>{4, 5, 1}, std::vector{"t4.nrrd", "t5.nrrd"}}}) {
+        options.steps = steps;
+        const auto series = open_series({folder_.path()}, options);
+        EXPECT_THAT(series->info().sources, testing::ElementsAreArray(expected));
+        EXPECT_EQ(values_of<std::uint8_t>(*series, 1).front(), expected[1][1]);
+        EXPECT_EQ(series->info().times[0], static_cast<double>(steps[0]));
+    }
+    options.steps = {{1, 5, 2}};
+    EXPECT_THAT(error_of([&] { open_series({folder_.path()}, options); }), HasSubstr("t3.nrrd"));
+    options.steps = {{0, 6, 2}};
+    EXPECT_THAT(error_of([&] { open_series({folder_.path()}, options); }),
+                HasSubstr("--steps 0:6:2, expected steps of 0:5"));
+    // A file of two steps, so that those before it would have other numbers.
+    for (const char number : {'0', '1', '2'})
+        write(std::string("raw/t") + number + ".raw", std::string(number == '2' ? 16 : 8, number));
+    ReadOptions raw;
+    raw.dims = {{2, 2, 2}};
+    raw.type = ValueType::u8;
+    raw.steps = {{0, 2, 2}};
+    EXPECT_THAT(error_of([&] { open_series({folder_.path() / "raw"}, raw); }),
+                AllOf(HasSubstr("t2.raw: 2 steps, expected 1"), HasSubstr("--steps")));
+}
+
 } // namespace
 } // namespace isochron::index

@@ -97,9 +97,9 @@ std::string missing_text(std::uint64_t missing, const index::SeriesInfo& info) {
         return "";
     const std::uint64_t all = info.grid.vertex_count() * info.steps();
     const double percent = 100.0 * static_cast<double>(missing) / static_cast<double>(all);
-    return percent < 0.1   ? "less than 0.1 %"
+    return percent < 0.1   ? "< 0.1 %"
            : missing < all ? fmt::format("{:.1f} %", std::min(percent, 99.9))
-                           : "all";
+                           : "100 %";
 }
 
 std::string upper_text(double bound, const std::string& unit) {

@@ -122,12 +122,12 @@ TEST(RangeText, HasAsManyDigitsAsTellItsEndsApart) {
 TEST_F(PanelTest, SaysHowManyValuesAreMissing) {
     info_.grid.vertices = {10, 10, 50}; // 10,000 values in two steps
     for (const auto& [missing, words] : {std::pair{0u, ""},
-                                         {1u, "less than 0.1 %"},
-                                         {9u, "less than 0.1 %"},
+                                         {1u, "< 0.1 %"},
+                                         {9u, "< 0.1 %"},
                                          {10u, "0.1 %"},
                                          {375u, "3.8 %"},
                                          {9'999u, "99.9 %"},
-                                         {10'000u, "all"}}) {
+                                         {10'000u, "100 %"}}) {
         EXPECT_EQ(missing_text(missing, info_), words);
         stats_.nan_values = missing;
         press(5, 5);

@@ -104,39 +104,5 @@ TEST_P(BoxBeforeCells, BlendsWithEveryFootprint) {
     }
 }
 
-TEST_P(BoxBeforeCells, NoCellCutsAWord) {
-    const auto context = stereo::make_context(GetParam(), {.size = kPicture});
-    Session session(one_window(StereoMode::mono), file_, *context);
-    const auto picture = [&](const interaction::Similarity& placement, double isovalue, bool box) {
-        Commands commands = showing(placement);
-        commands.isosurfaces = {{isovalue, {0.5f, 0.0f, 0.0f}, 1.0f}}; // has no blue
-        commands.bounding_box = box;
-        settle(session, commands);
-        return session.outputs().display().read_eye(Eye::center);
-    };
-    constexpr double kNoCell = -1e3, kSphere = kFromRadius - kOuterRadius;
-    int before_cells = 0, cut = 0;
-    for (int turn = 0; turn < 12; ++turn) {
-        // So near that most titles find no room beside the box.
-        interaction::Similarity placement = place_at({}, 0.06);
-        placement.rotation = glm::angleAxis(0.5 * turn, glm::dvec3(0, 1, 0)) * placement.rotation;
-        placement.translation = glm::dvec3(0.12, 1.6, -2.0) -
-                                placement.scale * (placement.rotation * glm::dvec3(0.5 * kBox));
-        const Image words = picture(placement, kNoCell, true);
-        const Image cells = picture(placement, kSphere, false);
-        const Image both = picture(placement, kSphere, true);
-        for (int y = 0; y < both.height; ++y)
-            for (int x = 0; x < both.width; ++x) {
-                constexpr int kBlue = 2, kWord = 220, kSeen = 200;
-                if (words.at(x, y)[kBlue] < kWord || cells.at(x, y)[0] < 60)
-                    continue;
-                ++before_cells;
-                cut += both.at(x, y)[kBlue] < kSeen;
-            }
-    }
-    EXPECT_GT(before_cells, 20);
-    EXPECT_EQ(cut, 0);
-}
-
 } // namespace
 } // namespace isochron::app

@@ -128,6 +128,35 @@ void names_without_effect(const CheckedRoom& room, const Tell& tell) {
     }
 }
 
+/// The left hand without a right one.
+void hands_without_wand(const CheckedRoom& room, const Tell& tell) {
+    const auto devices = listed(room);
+    const auto named = [&](const char* name) {
+        return std::ranges::find_if(devices, [&](const ListedDevice& each) {
+            return each.options.name == name && each.options.has_pose;
+        });
+    };
+    if (const auto other = named("wand2"); other != devices.end() && named("wand") == devices.end())
+        tell(room, other->line, "wand2 is the other hand, and none is called wand", other->key);
+}
+
+void eyes_on_hands(const CheckedRoom& room, const Tell& tell) {
+    for (const stereo::Viewer& viewer : room.installation().viewers)
+        if (viewer.head == "wand" || viewer.head == "wand2")
+            tell(room, viewer.line.number,
+                 fmt::format("the eyes of {} follow {}, a hand", viewer.name, viewer.head));
+}
+
+/// `source = "/isochron/wand"` where `wand` is meant.
+void osc_names(const CheckedRoom& room, const Tell& tell) {
+    for (const interaction::OscOptions& tracker : room.config().devices.osc)
+        for (const interaction::OscDevice& each : tracker.devices)
+            if (each.source.starts_with('/'))
+                tell(room, tracker.line,
+                     fmt::format("'{}': poses would come to {}/{}/pose: a name has no slash",
+                                 each.source, tracker.prefix, each.source));
+}
+
 void sources_read_twice(const CheckedRoom& room, const Tell& tell) {
     std::map<std::string, std::string> first;
     for (const ListedDevice& device : listed(room)) {
@@ -147,7 +176,7 @@ void poses_given_twice(const CheckedRoom& room, const Tell& tell) {
     const auto devices = listed(room);
     for (std::size_t i = 0; i < devices.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (const auto& a = devices[j], &b = devices[i];
+            if (const auto &a = devices[j], &b = devices[i];
                 a.options.name == b.options.name && a.options.has_pose && b.options.has_pose)
                 tell(room, b.line,
                      fmt::format("{} has its pose from the tracker of line {} already{}",
@@ -386,11 +415,16 @@ void button_lists(const CheckedRoom& room, const Tell& tell) {
             bool powers = buttons.size() >= 4;
             for (std::size_t i = 0; i < buttons.size(); ++i)
                 powers = powers && buttons[i] == 1u << std::min<std::size_t>(i, 31);
+            bool from_one = buttons.size() >= 3;
+            for (std::size_t i = 0; i < buttons.size(); ++i)
+                from_one = from_one && buttons[i] == i + 1;
             if (powers)
                 why = "buttons have numbers from 0, no bits";
             if constexpr (requires { each.kind; }) {
                 if (!buttons.empty() && each.kind != DTrackKind::flystick)
                     why = fmt::format("a {} has no buttons, a flystick has", name_of(each.kind));
+                else if (from_one)
+                    why = "a Flystick's buttons are counted from 0, which is the trigger";
                 else if (!buttons.empty() && std::ranges::max(buttons) > kMost)
                     why = fmt::format("{} is no button of a Flystick, they are counted from 0",
                                       std::ranges::max(buttons));
@@ -477,6 +511,9 @@ constexpr Check kOfDevices[]{
     {"*", Check::wrong, trackers_not_built_in},
     {"*.devices.name", Check::odd, trackers_without_head},
     {"*.devices.name", Check::odd, names_without_effect},
+    {"*.devices.name", Check::odd, hands_without_wand},
+    {"viewers.head", Check::odd, eyes_on_hands},
+    {"osc.devices.source", Check::odd, osc_names},
     {"*.devices.name", Check::odd, poses_given_twice},
     {"*.port", Check::odd, unlikely_ports},
     {"*.address", Check::odd, unlikely_addresses},

@@ -9,7 +9,8 @@
 #include <cstdint>
 #include <exception>
 #include <span>
-#include <vector>
+
+#include <zlib.h>
 
 namespace isochron::app {
 namespace {
@@ -49,9 +50,40 @@ render::Image made_small(const render::Image& picture) {
     return small;
 }
 
+// https://www.w3.org/TR/png-3/
 std::string png_of(const render::Image& picture) {
-    const std::vector<std::byte> bytes = stereo::encoded_image(picture, kPictureName);
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    const auto big_endian = [](std::uint32_t value) {
+        std::string bytes;
+        for (int shift = 24; shift >= 0; shift -= 8)
+            bytes += static_cast<char>(value >> shift & 255);
+        return bytes;
+    };
+    const auto bytes_of = [](const auto& some) {
+        return reinterpret_cast<const Bytef*>(some.data());
+    };
+    std::string rows;
+    const std::size_t row = 4 * static_cast<std::size_t>(picture.width);
+    for (std::size_t at = 0; at < picture.rgba.size(); at += row) {
+        rows += '\0'; // as they are
+        rows.append(reinterpret_cast<const char*>(picture.rgba.data()) + at, row);
+    }
+    uLongf size = compressBound(rows.size());
+    std::string packed(size, '\0');
+    compress(reinterpret_cast<Bytef*>(packed.data()), &size, bytes_of(rows), rows.size());
+    packed.resize(size);
+    std::string png = "\x89PNG\r\n\x1a\n";
+    const auto add = [&](const std::string& chunk, std::size_t length) {
+        const auto check = crc32(0, bytes_of(chunk), static_cast<uInt>(chunk.size()));
+        png += big_endian(static_cast<std::uint32_t>(length)) + chunk +
+               big_endian(static_cast<std::uint32_t>(check));
+    };
+    add("IHDR" + big_endian(static_cast<std::uint32_t>(picture.width)) +
+            big_endian(static_cast<std::uint32_t>(picture.height)) +
+            std::string("\x08\x06\0\0\0", 5), // 8 bits, with alpha
+        13);
+    add("IDAT" + packed, packed.size());
+    add("IEND", 0);
+    return png;
 }
 
 std::optional<render::Image> picture_in(const std::string& png) {

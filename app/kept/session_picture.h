@@ -16,7 +16,8 @@ inline constexpr int kPictureWidth = 160, kPictureHeight = 100;
 /// than a small picture; with its proportions, and never enlarged. An empty one stays empty.
 render::Image made_small(const render::Image& picture);
 
-/// The bytes of a picture as a PNG. @throws render::Error, index::Error as `stereo::encoded_image`
+/// The bytes of a picture as a PNG, which needs no library that would have to be loaded: a session is
+/// saved within the time that a signal leaves. @param picture not empty
 std::string png_of(const render::Image& picture);
 /// The picture in these bytes; empty: they are no PNG, or nothing here can read it.
 std::optional<render::Image> picture_in(const std::string& png);

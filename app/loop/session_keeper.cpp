@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <utility>
 
 namespace isochron::app {
@@ -37,12 +36,8 @@ void SessionKeeper::write(const fs::path& path, SavedSession session,
     fs::create_directories(path.parent_path(), error);
     if (others.moves_earlier && fs::is_regular_file(path, error))
         others.moved = keep_earlier(path);
-    if (seen) {
-        try {
-            session.picture = png_of(made_small(*seen));
-        } catch (const std::exception&) { // pictures need a library that may be missing
-        }
-    }
+    if (seen)
+        session.picture = png_of(made_small(*seen));
     save_session(path, session);
     others.moves_earlier = false;
     drop_sessions(std::exchange(others.drops, {}));

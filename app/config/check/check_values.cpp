@@ -8,7 +8,9 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace isochron::app {
@@ -100,20 +102,51 @@ void unusual_values(const CheckedRoom& room, const Tell& tell) {
     });
 }
 
-void order_of_budgets(const CheckedRoom& room, const Tell& tell) {
-    const QualityConfig& quality = room.config().quality;
-    if (quality.longest_ms > 0 && quality.longest_ms < quality.frame_budget_ms)
-        tell(room, 0,
-             fmt::format("{:g} ms is less than quality.frame_budget_ms, {:g} ms",
-                         quality.longest_ms, quality.frame_budget_ms));
+/// A number and another one that it is not below, where neither is 0.
+constexpr std::pair<const char*, const char*> kOrders[]{
+    {"quality.longest_ms", "quality.frame_budget_ms"},
+    {"comfort.vignette_full", "comfort.vignette_speed"},
+    {"comfort.vignette_turn_full", "comfort.vignette_turn"},
+    {"cluster.frame_timeout", "cluster.timeout"},
+    {"rendering.picture_samples", "rendering.samples"},
+};
+
+void orders(const CheckedRoom& room, const Tell& tell) {
+    Config config = room.config();
+    std::map<std::string, double, std::less<>> numbers;
+    each_number(config, "", 0,
+                [&](const std::string& path, double value, int) { numbers[path] = value; });
+    for (const auto& [key, least] : kOrders)
+        if (const double value = numbers[key], low = numbers[least]; value > 0 && value < low)
+            tell(room, 0, fmt::format("{:g} is less than {}, {:g}", value, least, low), key);
 }
 
-void order_of_vignette(const CheckedRoom& room, const Tell& tell) {
-    const interaction::ComfortOptions& comfort = room.config().comfort;
-    if (comfort.vignette_full < comfort.vignette_speed)
-        tell(room, 0, "it is closed at a lower speed than it begins to close at, vignette_speed");
-    if (comfort.vignette_turn_full < comfort.vignette_turn)
-        tell(room, 0, "it is closed at a slower turn than it begins to close at, vignette_turn");
+/// Keys of what another key turns on, and a file that does not have that key.
+constexpr std::pair<const char*, const char*> kSwitches[]{
+    {"openxr", "openxr.enabled"},
+    {"comfort.vignette_speed", "comfort.vignette"},
+    {"comfort.vignette_full", "comfort.vignette"},
+    {"comfort.vignette_turn", "comfort.vignette"},
+    {"comfort.vignette_turn_full", "comfort.vignette"},
+    {"comfort.vignette_fade_ms", "comfort.vignette"},
+};
+
+void left_off(const CheckedRoom& room, const Tell& tell) {
+    for (const auto& [key, on] : kSwitches)
+        if (room.has(key) && !room.has(on))
+            tell(room, room.line_of(key), fmt::format("{} has no effect without it", key), on);
+}
+
+void odd_samples(const CheckedRoom& room, const Tell& tell) {
+    const auto samples = static_cast<unsigned>(room.config().rendering.samples);
+    if (samples != 0 && !std::has_single_bit(samples))
+        tell(room, 0, fmt::format("{}: drivers have 2, 4, 8 or 16 samples of a pixel", samples));
+}
+
+/// A headset beside walls, which show the mirror of it.
+void headset_in_a_room(const CheckedRoom& room, const Tell& tell) {
+    if (room.config().openxr.enabled && room.walls().size() > 1)
+        tell(room, 0, "the walls only mirror the headset while it is there");
 }
 
 void dark_lights(const CheckedRoom& room, const Tell& tell) {
@@ -124,10 +157,17 @@ void dark_lights(const CheckedRoom& room, const Tell& tell) {
              light.key_direction.y < -0.5f * glm::length(light.key_direction))
         tell(room, 0,
              "lighting.key_direction points down: it is the way to the light, and y is up");
+    const auto& angles = room.config().start.look.light;
+    if (angles && (*angles)[1] < -30)
+        tell(room, room.line_of("look.light"), "the light comes from below the floor");
+    else if (angles && std::abs((*angles)[0]) < 3.2 && std::abs((*angles)[1]) < 1.6 &&
+             std::floor((*angles)[1]) != (*angles)[1])
+        tell(room, room.line_of("look.light"), "its angles are degrees: are these radians?");
 }
 
 void unseen_surfaces(const CheckedRoom& room, const Tell& tell) {
     const Config& config = room.config();
+    std::set<double> isovalues;
     for (const ConfiguredSurface& surface : config.surfaces)
         if (surface.opacity <= 0)
             tell(room, room.line_of("surfaces.opacity"), "an opacity of 0 shows no surface");
@@ -136,6 +176,9 @@ void unseen_surfaces(const CheckedRoom& room, const Tell& tell) {
         else if (!surface.isovalue && (surface.quantile <= 0 || surface.quantile >= 1))
             tell(room, room.line_of("surfaces.quantile"),
                  fmt::format("at a quantile of {:g} there is no surface", surface.quantile));
+        else if (surface.isovalue && !isovalues.insert(*surface.isovalue).second)
+            tell(room, room.line_of("surfaces.isovalue"),
+                 fmt::format("two surfaces at {:g}", *surface.isovalue));
     if (config.surfaces.empty() &&
         glm::distance(config.rendering.surface_color, config.rendering.background) < 0.05f)
         tell(room, room.line_of("rendering.surface_color"), "it is rendering.background's color");
@@ -148,20 +191,15 @@ void percentiles(const CheckedRoom& room, const Tell& tell) {
              fmt::format("{:g} and {:g}: percentiles go from 0 to 100", (*given)[0], (*given)[1]));
 }
 
-/// Keys of a headset, and nothing that turns it on.
-void headset_left_off(const CheckedRoom& room, const Tell& tell) {
-    if (room.has("openxr") && !room.has("openxr.enabled"))
-        tell(room, room.line_of("openxr"), "without enabled = true no headset is used");
-}
-
 constexpr Check kOfValues[]{
     {"*", Check::odd, unusual_values},
-    {"quality.longest_ms", Check::odd, order_of_budgets},
-    {"comfort.vignette_full", Check::odd, order_of_vignette},
+    {"*", Check::odd, orders},
+    {"*", Check::odd, left_off},
+    {"rendering.samples", Check::odd, odd_samples},
+    {"openxr.enabled", Check::odd, headset_in_a_room},
     {"lighting", Check::odd, dark_lights},
     {"surfaces", Check::odd, unseen_surfaces},
     {"coloring.percentiles", Check::odd, percentiles},
-    {"openxr.enabled", Check::odd, headset_left_off},
 };
 
 } // namespace

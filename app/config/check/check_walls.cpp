@@ -393,13 +393,17 @@ void monitors_covered_twice(const CheckedRoom& room, const Tell& tell) {
 }
 
 void covered_windows(const CheckedRoom& room, const Tell& tell) {
-    each_two_windows(room, [&](const stereo::Window& a, const stereo::Window& b) {
+    const auto look = [&](const stereo::Window& a, const stereo::Window& b) {
         const glm::ivec2 shared = shared_pixels(a, b);
         if (shared.x > 0 && shared.y > 0)
             tell(room, b.line.number,
                  fmt::format("window {} covers {} x {} pixels of window {}", b.name, shared.x,
                              shared.y, a.name));
-    });
+    };
+    each_two_windows(room, look);
+    if (const auto& console = room.config().panel.console)
+        for (const stereo::Window& window : room.installation().windows)
+            look(window, console->window());
 }
 
 void nodes_without_windows(const CheckedRoom& room, const Tell& tell) {

@@ -48,6 +48,10 @@ inline constexpr UsualValues kUsualValues[]{
     {"cluster.frame_timeout", "s", 5, 7200},
     {"openxr.scale", "times", 0.4, 2},
     {"openxr.retry_seconds", "s", 0.1, 120},
+    {"lighting.ambient", "of 1", 0.01, 1.5},
+    {"lighting.head_light", "of 1", 0.01, 2},
+    {"lighting.key_light", "of 1", 0.01, 2},
+    {"surfaces.opacity", "of 1", 0.03, 1},
     {"memory.cache_megabytes", "MB", 64, 4e6},
     {"memory.mesh_megabytes", "MB", 8, 32768},
 };

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import xarray
 
-from ._arguments import Isovalues, Number
+from ._arguments import Isovalues, Number, moment
 from ._build import Path, build
 from ._errors import ArgumentError
 from ._run import Run
@@ -73,10 +74,35 @@ class DataArrayAccessor(_Accessor):
                 ".isochron.build(name)"
             )
         said = {"step", "time", "fraction"} & set(options)
-        if "time" in data.coords and data.coords["time"].ndim == 0 and not said:
+        if "time" in data.coords and data.coords["time"].ndim == 0:
+            if said:
+                raise ArgumentError(f"{data.name}: a moment is selected already, expected no {said.pop()}")
             options = {**options, "time": data.coords["time"].values[()]}
         elif "time" in data.dims and data.sizes["time"] != len(run):
             raise ArgumentError(f"{data.name}: {data.sizes['time']} of {len(run)} steps, expected one or all")
         elif "time" in data.dims and not said and len(run) > 1:
             raise ArgumentError(f"{data.name}: {len(run)} steps: expected time or step, or one of them selected")
-        return getattr(run, name)(isovalue, array=data.encoding["isochron_array"], **options)
+        array = data.encoding["isochron_array"]
+        at, part = moment(run, *(options.get(each) for each in ("step", "fraction", "time")))
+        if "time" in data.dims:
+            shown = {step: data.isel(time=step) for step in (at, at + (part > 0))}
+        else:
+            shown = {at: data}
+        if not all(self._is_as_stored(run, array, values, step) for step, values in shown.items()):
+            raise ArgumentError(f"{data.name}: its values or places were changed: .isochron.build(name) makes an index of it")
+        return getattr(run, name)(isovalue, array=array, **options)
+
+    @staticmethod
+    def _is_as_stored(run: Run, array: str, data: Any, step: int) -> bool:
+        """Values that are not in memory yet are those of the file."""
+        from ._xarray import Values  # imports xarray, which imports this
+
+        places = run.to_xarray().coords
+        if any(axis in data.coords and not np.array_equal(data[axis], places[axis]) for axis in "zyx"):
+            return False
+        held = data.variable._data
+        while hasattr(held, "array"):  # xarray's wrappers
+            held = held.array
+        if isinstance(held, Values):
+            return True
+        return np.array_equal(data.transpose(*"zyx").values, run.values(step, array=array), equal_nan=True)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._errors import ArgumentError, Error
+from ._errors import ArgumentError, PlaceError
 
 if TYPE_CHECKING:
     from ._run import Run
@@ -56,8 +56,9 @@ def whole(value: Any, name: str) -> int:
 
 
 def several(value: Any) -> bool:
-    """Whether isovalues are given, not one."""
-    return isinstance(value, (Sequence, np.ndarray)) and not isinstance(value, (str, bytes)) and np.ndim(value) > 0
+    """Whether isovalues are given, not one: a list, or an array of NumPy, xarray or pandas."""
+    arrays = isinstance(value, Sequence) or hasattr(value, "ndim")
+    return arrays and not isinstance(value, (str, bytes)) and np.ndim(value) > 0
 
 
 def moment(run: Run, step: Any, fraction: Any, time: Time) -> tuple[int, int]:
@@ -70,7 +71,11 @@ def moment(run: Run, step: Any, fraction: Any, time: Time) -> tuple[int, int]:
             raise ArgumentError("time: expected without step and fraction, which say the moment, too")
         return at_time(run, time)
     at = 0 if step is None else whole(step, "step")
+    if not 0 <= at < len(run):
+        raise PlaceError(f"{run.path}: step {at}, expected 0 to {len(run) - 1}")
     part = 0 if fraction is None else _fraction(fraction)
+    if part and at + 1 == len(run):
+        raise ArgumentError(f"{run.path}: fraction {fraction} after step {at}, which is the last one: expected 0")
     return (at + 1, 0) if part == _WHOLE else (at, part)
 
 
@@ -87,8 +92,8 @@ def _fraction(value: Any) -> int:
         return round(share * _WHOLE)
     parts = whole(value, "fraction")
     # 65536ths end before the next step, as in files.
-    if parts == _WHOLE:
-        raise Error(f"fraction {parts}, expected 0 to {_WHOLE - 1}")
+    if not 0 <= parts < _WHOLE:
+        raise ArgumentError(f"fraction {parts}, expected 0 to {_WHOLE - 1}")
     return parts
 
 

@@ -157,7 +157,7 @@ class Session:
 
     def _ask(self, verb: str, **more: Any) -> tuple[dict[str, Any], bytes]:
         self._requests += 1
-        line = json.dumps({"id": self._requests, "verb": verb, **more}, default=plain) + "\n"
+        line = as_json({"id": self._requests, "verb": verb, **more}, "commands")
         try:
             self._socket.sendall(line.encode())
             while True:
@@ -208,8 +208,17 @@ def _given(**values: Any) -> dict[str, Any]:
     return {key: value for key, value in values.items() if value is not None}
 
 
-def plain(value: Any) -> Any:
-    """NumPy's numbers and arrays as JSON has them."""
-    if isinstance(value, (np.generic, np.ndarray)):
-        return value.tolist()
-    raise TypeError(f"{type(value).__name__} is no value of a command")
+def as_json(value: Any, name: str) -> str:
+    """A line; NumPy's numbers and arrays are as JSON has them."""
+
+    def plain(value: Any) -> Any:
+        if isinstance(value, (np.generic, np.ndarray)):
+            return value.tolist()
+        raise ArgumentError(f"{name}: {type(value).__name__} is no value of a command")
+
+    try:
+        return json.dumps(value, default=plain, allow_nan=False) + "\n"
+    except ArgumentError:
+        raise
+    except (TypeError, ValueError):  # of keys, and of numbers that JSON has not
+        raise ArgumentError(f"{name}: expected finite numbers, and texts as keys") from None

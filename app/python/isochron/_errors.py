@@ -9,6 +9,9 @@ import re
 class Error(Exception):
     """Bad input or a failed file operation: what, where, expected and got, in one line."""
 
+    def __init__(self, line: str = "") -> None:
+        super().__init__(" ".join(line.split()) if "\n" in line else line)  # arrays print as several lines
+
 
 class MissingFileError(Error, FileNotFoundError):
     """A file is not there."""

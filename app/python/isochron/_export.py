@@ -42,7 +42,7 @@ def export(
             words += [f"--{name}", *map(word, numbers(value, name, 2 if name == "range" else 6))]
         elif name == "crop":
             words += option(name, crop_word(value, run.shape[1:]))
-        elif name in ("rate", "simplify"):
+        elif name == "rate" or name == "simplify" and not isinstance(value, str):
             words += option(name, word(number(value, name)))
         else:
             words += option(name, value)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import struct
 import tempfile
@@ -14,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._control import plain
+from ._control import as_json
 from ._errors import Error
 from ._program import run as run_program
 
@@ -63,7 +62,7 @@ def _recording(index: str, state: Mapping[str, Any], size: tuple[int, int]) -> s
     # Nothing happens for two seconds, so that the picture is one at rest.
     frames: list[dict[str, Any]] = [{"t": 0.1 * number} for number in range(20)]
     frames.append({"t": 2.0, "commands": {"stamps": [_STAMP]}})
-    return "".join(json.dumps(line, default=plain) + "\n" for line in [header, *frames])
+    return "".join(as_json(line, "state") for line in [header, *frames])
 
 
 def _pixels(tiff: bytes) -> NDArray[np.uint8]:

@@ -434,7 +434,7 @@ class Run:
         rate: Number | None = None,
         crop: Crop | None = None,
         clip: Sequence[Number] | None = None,
-        simplify: Number | None = None,
+        simplify: Number | str | None = None,
         quantize: bool = False,
         compress: bool = False,
         normals: bool = True,
@@ -453,7 +453,7 @@ class Run:
         unit: of length, for the coordinates; rate: steps a second, of formats that hold all steps.
         crop: as for `build`: triangles within these vertices alone.
         clip: (x, y, z, nx, ny, nz): nothing beyond the plane in this point, where the normal points to.
-        simplify: how far the surface may move for fewer triangles.
+        simplify: how far the surface may move for fewer triangles: a length, or "0.5cells".
         quantize, compress: smaller glTF. force: replaces files that exist.
         """
         from ._export import export
@@ -553,6 +553,8 @@ class Run:
             raise Error(f"{self._path}: is closed")
         if name is not None and not isinstance(name, str):
             raise ArgumentError(f"array: expected a name, got {name!r}")
+        if name is not None and name not in self._names:
+            raise ArgumentError(f"{self._path}: no array {name}, expected {', '.join(self._names)}")
         return self._native.array(name)
 
 

@@ -19,7 +19,7 @@ _LazilyIndexed: Any = indexing.LazilyIndexedArray
 _Variable: Any = xarray.Variable
 
 
-class _Values(BackendArray):
+class Values(BackendArray):
     """The values of one array of a run, read when they are asked for."""
 
     def __init__(self, run: Run, array: str) -> None:
@@ -84,7 +84,7 @@ def dataset(run: Run) -> xarray.Dataset:
     arrays = {}
     for name in run.arrays:
         about = run._array(name).description()
-        values = _LazilyIndexed(_Values(run, name))
+        values = _LazilyIndexed(Values(run, name))
         arrays[name] = _Variable(("time", "z", "y", "x"), values, _with_unit(about["unit"]))
         arrays[name].encoding.update(source=run._place, isochron_array=name)
     return xarray.Dataset(arrays, coordinates, {"source": run.path})

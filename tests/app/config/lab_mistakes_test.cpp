@@ -222,10 +222,7 @@ std::vector<Mistake> mistakes_of_screens() {
         {kProjection, "the front wall behind the viewer",
          cave_with("front", {1.5, 0, 1.5}, {1.5, 3, 1.5}, {-1.5, 3, 1.5})},
         {kProjection, "a wall at the side alone",
-         moved(powerwall(),
-               [](const Point& p) {
-                   return Point{p[2], p[1], -p[0]};
-               })},
+         moved(powerwall(), [](const Point& p) { return Point{p[2], p[1], -p[0]}; })},
         {kProjection, "millimeters", moved(cave(), times(1000))},
         {kProjection, "centimeters", moved(cave(), times(100))},
         {kProjection, "decimeters", moved(cave(), times(10))},
@@ -233,20 +230,10 @@ std::vector<Mistake> mistakes_of_screens() {
         {kProjection, "feet", moved(cave(), times(foot))},
         {kProjection, "a powerwall in feet", moved(powerwall(), times(foot))},
         {kProjection, "left-handed",
-         moved(cave(),
-               [](Point p) {
-                   return Point{p[0], p[1], -p[2]};
-               })},
-        {kProjection, "y down",
-         moved(cave(),
-               [](Point p) {
-                   return Point{p[0], -p[1], p[2]};
-               })},
+         moved(cave(), [](Point p) { return Point{p[0], p[1], -p[2]}; })},
+        {kProjection, "y down", moved(cave(), [](Point p) { return Point{p[0], -p[1], p[2]}; })},
         {kProjection, "turned by 90 degrees",
-         moved(cave(),
-               [](Point p) {
-                   return Point{p[2], p[1], -p[0]};
-               })},
+         moved(cave(), [](Point p) { return Point{p[2], p[1], -p[0]}; })},
         {kProjection, "z up in corners", moved(cave(), z_up)},
         {"z points up", "z up", with(moved(cave(), z_up), words({0, 1.7, 0}), words({0, 0, 1.7}))},
         {"z points up", "z up, one wall",
@@ -257,10 +244,7 @@ std::vector<Mistake> mistakes_of_screens() {
          with(powerwall(), "lower_left", "carried_by = \"head\"\nlower_left")},
         {"carried_by", "a headset's screen in the room", hmd()},
         {"carried_by", "a room whose origin is in its middle",
-         moved(powerwall(),
-               [](Point p) {
-                   return Point{p[0], p[1] - 1.525, p[2]};
-               })},
+         moved(powerwall(), [](Point p) { return Point{p[0], p[1] - 1.525, p[2]}; })},
         {"fit_aspect", "a wall that is fitted",
          with(in_window("lower_left", "fit_aspect = true\nlower_left"), "size = [1200, 1200]",
               "size = [1920, 1200]\nfullscreen = true")},
@@ -296,6 +280,8 @@ std::vector<Mistake> mistakes_of_windows() {
         {"windows.monitor", "a monitor without fullscreen", window(kQuad + "\nmonitor = 1")},
         {"windows.position", "windows over each other",
          with_all(cave(), kQuad, kQuad + "\nposition = [0, 0]")},
+        {"windows.position", "the console over a window",
+         with(powerwall("[console]\nposition = [9, 9]\n"), kQuad, kQuad + "\nposition = [0, 0]")},
         {"windows.node", "a node without a window", window(kQuad + "\nnode = 2")},
         {"stereo", "one wall inverted", in_window(kQuad, "stereo = \"quadbuffer_inverted\"")},
         {"stereo", "one wall mono", in_window(kQuad, "stereo = \"mono\"")},
@@ -349,10 +335,7 @@ std::vector<Mistake> mistakes_of_viewers() {
         {"viewer.position", "on the floor of a powerwall",
          with(powerwall(), words({0, 1.7, 0}), "[0, 0.017, 0]")},
         {"viewer.position", "origin in the middle, viewer from the floor",
-         moved(cave(),
-               [](Point p) {
-                   return Point{p[0], p[1] - 1.5, p[2]};
-               })},
+         moved(cave(), [](Point p) { return Point{p[0], p[1] - 1.5, p[2]}; })},
         {"viewers", "no viewport for a viewer",
          "[[viewers]]\nname = \"a\"\n[[viewers]]\nname = "
          "\"b\"\n"},
@@ -360,6 +343,7 @@ std::vector<Mistake> mistakes_of_viewers() {
          "[[viewers]]\nname = \"a\"\n[[viewers]]\nname = "
          "\"b\"\n"},
         {"viewers.head", "a slip", eyes("head = \"haed\"")},
+        {"viewers.head", "a hand", eyes("head = \"wand\"")},
         {"rendering.near", "behind the walls", cave("[rendering]\nnear = 5\n")},
         {"rendering.near", "out of reach", cave("[rendering]\nnear = 1\n")},
         {"rendering.near", "beyond far", cave("[rendering]\nnear = 3\nfar = 2\n")},
@@ -410,7 +394,8 @@ std::vector<Mistake> mistakes_of_trackers() {
     each("dtrack.devices.rotation", of_head, {"rotation = [0, 1.5708, 0]"});
     each("buttons", of_head, {"buttons = [0, 1]"});
     each("buttons", of_wand,
-         {"buttons = [1, 1, 2]", "buttons = [1, 2, 4, 8]", "buttons = [16]", "buttons = [100]"});
+         {"buttons = [1, 1, 2]", "buttons = [1, 2, 4, 8]", "buttons = [16]", "buttons = [100]",
+          "buttons = [1, 2, 3]"});
     each("valuators", of_head, {"valuators = [0]"});
     each("valuators", of_wand, {"valuators = [0, 0]", "valuators = [8]"});
     each("valuator_factors", of_wand,
@@ -432,6 +417,9 @@ std::vector<Mistake> mistakes_of_trackers() {
         {"osc.port", "a port twice",
          cave("[osc]\nport = 5000\n[[osc.devices]]\nname = \"wand2\"\n")},
         {"osc.devices.name", "two poses", cave("[osc]\n" + osc)},
+        {"osc.devices.source", "an address for a name",
+         cave("[osc]\n" + osc + "source = \"/isochron/wand\"\n")},
+        {"dtrack.devices.name", "the other hand alone", with(cave(), wand, "name = \"wand2\"")},
         {"dtrack.devices.name", "a headset, too", cave("[openxr]\nenabled = true\n")},
         {"prediction_limit_ms", "less than is to be predicted",
          cave("[tracking]\ndisplay_delay_ms = 120\n")},
@@ -464,6 +452,16 @@ std::vector<Mistake> mistakes_of_values() {
     add("quantile", "[[surfaces]]\nquantile = 95");
     add("coloring.percentiles", "[coloring]\npercentiles = [0.02, 0.98]");
     add("openxr.enabled", "[openxr]\nmirror = \"both\"");
+    add("openxr.enabled", "[openxr]\nenabled = true");
+    add("comfort.vignette", "[comfort]\nvignette_speed = 0.5");
+    add("cluster.frame_timeout", "[cluster]\ntimeout = 60\nframe_timeout = 10");
+    add("rendering.picture_samples", "[rendering]\nsamples = 16\npicture_samples = 4");
+    add("rendering.samples", "[rendering]\nsamples = 3");
+    add("lighting.ambient", "[lighting]\nambient = 2.5");
+    add("lighting", "[look]\nlight = [0.6, 0.8]");
+    add("lighting", "[look]\nlight = [30, -50]");
+    add("surfaces.opacity", "[[surfaces]]\nopacity = 0.01");
+    add("surfaces", "[[surfaces]]\nisovalue = 5\n[[surfaces]]\nisovalue = 5");
     return all;
 }
 
@@ -514,7 +512,8 @@ std::string with_value(const std::string& key, double value) {
                     line);
     if (table == "windows.viewports.projection")
         return with(powerwall(), "lower_left", line + "lower_left");
-    return cave(fmt::format("[{}]\n{}", table, line));
+    return cave(table == "surfaces" ? "[[surfaces]]\n" + line
+                                    : fmt::format("[{}]\n{}", table, line));
 }
 
 TEST(LabMistakes, ValuesOutsideOfWhatIsUsualAreToldAndThoseInsideAreNot) {

@@ -18,7 +18,9 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <set>
 
 namespace isochron::app {
@@ -357,11 +359,19 @@ TEST(SessionKeeper, KeepsASmallPictureOfWhatWasSeen) {
     keeper.show(std::make_shared<render::Image>(seen));
     ExplorerState state;
     state.grid = true;
+    const auto reads_pictures = [] {
+        std::ifstream maps("/proc/self/maps");
+        return std::string(std::istreambuf_iterator(maps), {}).find("OpenImageIO") !=
+               std::string::npos;
+    };
+    const bool before = reads_pictures();
     keeper.finish(state, start.head);
+    EXPECT_EQ(reads_pictures(), before) << "loading that may take longer than a signal leaves";
     const auto picture = picture_in(read_session(path).picture);
     ASSERT_TRUE(picture);
     EXPECT_EQ(picture->width, 133); // 640 x 480 in 160 x 100
     EXPECT_EQ(picture->height, 100);
+    EXPECT_EQ(picture->rgba, made_small(seen).rgba);
     EXPECT_EQ(std::vector(picture->at(10, 10), picture->at(10, 10) + 3),
               (std::vector<std::uint8_t>{200, 10, 7}));
     EXPECT_EQ(std::vector(picture->at(120, 90), picture->at(120, 90) + 3),

@@ -117,6 +117,38 @@ class Engine(SeriesTest):
                 with self.assertRaisesRegex(isochron.Error, line):
                     call()
 
+    def test_arrays_that_were_changed_are_not_taken_for_the_index(self):
+        def in_place(data):
+            data.load()[..., 0] = 99
+
+        def where_it_is_read(data):
+            data[{"x": 0}] = 99  # before anything is loaded
+
+        changes = {
+            "nothing": None, "load": lambda data: data.load(), "rename": lambda data: data.rename("other"),
+            "transpose": lambda data: data.transpose("x", "y", "z", ...), "chunk": lambda data: data.chunk({"x": 5}),
+            "copy": lambda data: data.copy(data=2 * data.values), "roll": lambda data: data.roll(x=3),
+            "dask": lambda data: data.chunk({"x": 5}).roll(x=3), "shift": lambda data: data.astype(float).shift(x=1),
+            "flip": lambda data: data.isel(x=slice(None, None, -1)), "sort": lambda data: data.sortby("y", ascending=False),
+            "places": lambda data: data.assign_coords(x=2 * data.x), "load[]": in_place, "[]": where_it_is_read,
+        }  # fmt: skip
+        same = ("nothing", "load", "rename", "transpose", "chunk")
+        for name, change in changes.items():
+            for moment in ({"time": 1}, {}):
+                data = xarray.open_dataset("run.isochron", engine="isochron").depth.isel(moment)
+                changed = change(data) if change else data
+                changed = data if changed is None else changed
+                with self.subTest(change=name, moment=moment):
+                    ask = {} if moment else {"step": 1}
+                    if name in same:
+                        np.testing.assert_array_equal(changed.isochron.cells(0.5, **ask), self.run_.cells(0.5, 1, array="depth"))
+                    else:
+                        with self.assertRaisesRegex(isochron.Error, "were changed|a computed one"):
+                            changed.isochron.cells(0.5, **ask)
+        isovalues = xarray.DataArray([0.25, 0.5])
+        for found, one in zip(self.run_.cells(isovalues, array="depth"), isovalues):
+            np.testing.assert_array_equal(found, self.run_.cells(one, array="depth"))
+
     def test_xarray_is_not_imported_for_who_does_not_use_it(self):
         for code in ("import isochron, sys; assert 'xarray' not in sys.modules; import xarray; xarray.DataArray([1]).isochron",
                      "import xarray, isochron; xarray.DataArray([1]).isochron"):

@@ -131,6 +131,8 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"value"}, r.value...);
     visit(Field{.key = "fraction", .low = 0, .high = kMostFraction, .may_lack = true},
           r.instant.fraction...);
+    visit(Field{.key = "array", .most = kLongestArrayName, .may_lack = true}, r.array...);
+    visit(Field{.key = "unit", .most = kLongestArrayName, .may_lack = true}, r.unit...);
 }
 
 template <class Visit, Of<HapticPulse>... Records>
@@ -152,6 +154,34 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"shown"}, r.shown...);
     visit(Field{"point"}, r.point...);
     visit(Field{"normal"}, r.normal...);
+}
+
+template <class Visit, Of<ClipBox>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"shown"}, r.shown...);
+    visit(Field{"low"}, r.low...);
+    visit(Field{"high"}, r.high...);
+}
+
+template <class Visit, Of<Plane>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"point"}, r.point...);
+    visit(Field{"normal"}, r.normal...);
+}
+
+template <class Visit, Of<Slices>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{.key = "planes", .most = kMostSlices}, r.planes...);
+    visit(Field{.key = "picked", .low = 0, .high = kMostSlices - 1, .may_lack = true}, r.picked...);
+    visit(Field{.key = "coloring", .may_lack = true}, r.coloring...);
+    visit(Field{.key = "isolines", .may_lack = true}, r.isolines...);
+    visit(Field{.key = "alone", .may_lack = true}, r.alone...);
+}
+
+template <class Visit, Of<NamedMark>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"name"}, r.name...);
+    each_field(visit, r.point...);
 }
 
 template <class Visit, Of<Ruler>... Records>
@@ -182,6 +212,8 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"mark"}, r.mark...);
     visit(Field{"clip"}, r.clip...);
     visit(Field{"ruler"}, r.ruler...);
+    visit(Field{"slices"}, r.slices...);
+    visit(Field{"clip_box"}, r.clip_box...);
 }
 
 /// The settings, the isovalue of the picked surface, and the commands that happen once.

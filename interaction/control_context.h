@@ -12,6 +12,7 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -23,12 +24,34 @@ namespace isochron::interaction {
 struct DataFrame {
     glm::dmat4 physical_from_box{1.0}; ///< from the unit cube
     std::string unit;                  ///< unit of lengths; may be empty
+    glm::dvec3 cells{1.0};             ///< number of cells along each axis
+    /// Distances of the vertices along an axis from the first, where they are uneven; null: even.
+    std::array<const std::vector<double>*, 3> distances{};
 
     glm::dvec3 at(const glm::dvec3& in_box) const {
         return glm::dvec3(physical_from_box * glm::dvec4(in_box, 1.0));
     }
     glm::dvec3 in_box(const glm::dvec3& physical) const {
         return glm::dvec3(glm::inverse(physical_from_box) * glm::dvec4(physical, 1.0));
+    }
+    /// Index of vertices along an axis, at a share of the box, 0 to 1; between vertices in proportion.
+    double index_along(int axis, double share) const {
+        const std::vector<double>* at = distances[static_cast<std::size_t>(axis)];
+        if (!at)
+            return share * cells[axis];
+        const double distance = share * at->back();
+        const auto above = std::upper_bound(at->begin() + 1, at->end() - 1, distance);
+        return static_cast<double>(above - at->begin() - 1) +
+               (distance - above[-1]) / (above[0] - above[-1]);
+    }
+    /// The inverse of `index_along`.
+    double share_along(int axis, double index) const {
+        const std::vector<double>* at = distances[static_cast<std::size_t>(axis)];
+        if (!at)
+            return index / cells[axis];
+        const auto low = static_cast<std::size_t>(std::clamp(index, 0.0, cells[axis] - 1));
+        const double rest = index - static_cast<double>(low);
+        return ((*at)[low] + rest * ((*at)[low + 1] - (*at)[low])) / at->back();
     }
     double longest_side() const {
         double longest = 0;

@@ -1,4 +1,4 @@
-// A place on a surface that is shown, and how to find one.
+// A place on a surface or slice that is shown, and how to find one.
 #pragma once
 
 #include "interaction/commands.h"
@@ -12,10 +12,11 @@ namespace isochron::interaction {
 struct Pointed {
     MarkedPoint point;
     std::size_t surface = 0; ///< number of the isosurface, from 0
+    bool on_slice = false;   ///< on a slice, and on no isosurface
     bool operator==(const Pointed&) const = default;
 };
 
-/// Finds the first surface that a ray meets. The ray starts at the pose and goes along its -Z.
+/// Finds the first surface or slice that a ray meets. The ray starts at the pose and goes along its -Z.
 using SurfaceFinder = std::function<std::optional<Pointed>(const Pose& ray)>;
 
 } // namespace isochron::interaction

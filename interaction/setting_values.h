@@ -248,6 +248,8 @@ struct MarkedPoint {
     glm::dvec3 position{0.0}; ///< physical space
     Instant instant;          ///< shown when it was picked
     double value = 0;         ///< value of the data there
+    /// Array whose value it is, and its unit; empty: that of the surfaces.
+    std::string array = {}, unit = {};
     bool operator==(const MarkedPoint&) const = default;
 };
 /// The one place that is marked, or none.
@@ -256,10 +258,19 @@ struct Mark {
     bool operator==(const Mark&) const = default;
 };
 
+/// A mark that was kept.
+struct NamedMark {
+    std::string name;
+    MarkedPoint point;
+    bool operator==(const NamedMark&) const = default;
+};
+inline constexpr std::size_t kMostMarks = 64;
+
 /// The tools: what a hand's button does.
-enum class ToolKind : std::uint8_t { grab, pick, clip, ruler };
+enum class ToolKind : std::uint8_t { grab, pick, clip, ruler, slice };
 template <>
-inline constexpr std::array<std::string_view, 4> kNames<ToolKind>{"grab", "pick", "clip", "ruler"};
+inline constexpr std::array<std::string_view, 5> kNames<ToolKind>{"grab", "pick", "clip", "ruler",
+                                                                  "slice"};
 
 /// The tool that each hand holds.
 struct Tools {
@@ -277,6 +288,33 @@ struct ClipPlane {
 
     /// Distance of a place from the plane, positive on the side that is cut away.
     double beyond(const glm::dvec3& at) const { return glm::dot(at - point, normal); }
+};
+
+/// A box that cuts the surfaces: what is outside it is cut away.
+struct ClipBox {
+    bool shown = false;
+    glm::dvec3 low{0.0}, high{0.0}; ///< corners, as indices of vertices along the axes of the grid
+    bool operator==(const ClipBox&) const = default;
+};
+
+inline constexpr std::size_t kMostSlices = 3;
+/// A plane through the data, in physical space.
+struct Plane {
+    glm::dvec3 point{0.0};            ///< on it
+    glm::dvec3 normal{0.0, 0.0, 1.0}; ///< unit
+    bool operator==(const Plane&) const = default;
+};
+/// The slices that are shown together: planes through one array.
+struct Slices {
+    std::vector<Plane> planes;         ///< at most kMostSlices
+    std::uint32_t picked = 0;          ///< the plane that is moved, counted from 0
+    Coloring coloring{ColorBy::value}; ///< `array` empty: that of the surfaces; `by` is ignored
+    bool isolines = true;              ///< the isovalues of the surfaces are drawn as lines
+    bool alone = false;                ///< surfaces are hidden while there are slices
+    bool operator==(const Slices&) const = default;
+
+    bool shown() const { return !planes.empty(); }
+    bool hides_surfaces() const { return alone && shown(); }
 };
 
 inline constexpr std::size_t kMostRulerPlaces = 2;
@@ -319,6 +357,8 @@ struct KeyFrame {
     std::optional<Mark> mark = {};
     std::optional<ClipPlane> clip = {};
     std::optional<Ruler> ruler = {};
+    std::optional<Slices> slices = {};
+    std::optional<ClipBox> clip_box = {};
     bool operator==(const KeyFrame&) const = default;
 };
 

@@ -73,6 +73,11 @@ struct SettingsOf {
     Holds<ExportWork> exporting{};
     Holds<bool> leaving{}; ///< the program asks the user whether to quit
 
+    // What is shown beside the surfaces.
+    Holds<Slices> slices{};
+    Holds<ClipBox> clip_box{};
+    Holds<std::vector<NamedMark>> marks{}; ///< all that were kept, at most kMostMarks
+
     bool operator==(const SettingsOf&) const = default;
 };
 
@@ -113,6 +118,9 @@ constexpr void each_setting(Visit&& visit, Records&... r) {
     visit(Field{.key = "pictures", .dragged = true}, r.pictures...);
     visit(Field{.key = "exporting", .undone = false}, r.exporting...);
     visit(Field{.key = "leaving", .undone = false}, r.leaving...);
+    visit(Field{.key = "slices", .dragged = true}, r.slices...);
+    visit(Field{.key = "clip_box", .dragged = true}, r.clip_box...);
+    visit(Field{.key = "marks", .most = kMostMarks}, r.marks...);
 }
 
 template <class T>

@@ -183,7 +183,13 @@ interaction::DataFrame data_frame(const index::SeriesInfo& info) {
     const auto cells = info.grid.cells();
     const glm::dmat4 index_from_box =
         glm::scale(glm::dmat4(1.0), glm::dvec3(cells[0], cells[1], cells[2]));
-    return {info.grid.physical_from_index() * index_from_box, info.length_unit};
+    interaction::DataFrame frame{info.grid.physical_from_index() * index_from_box,
+                                 info.length_unit,
+                                 {cells[0], cells[1], cells[2]}};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (!info.grid.positions[axis].even())
+            frame.distances[axis] = &info.grid.positions[axis].distances();
+    return frame;
 }
 
 } // namespace isochron::app

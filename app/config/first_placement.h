@@ -37,6 +37,7 @@ glm::dvec3 physical_size(const index::Grid& grid);
 glm::dvec3 physical_center(const index::Grid& grid);
 
 /// The box of the data, for tools.
+/// @param info outlives what is returned
 interaction::DataFrame data_frame(const index::SeriesInfo& info);
 
 } // namespace isochron::app

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -96,12 +97,31 @@ bool holds(const Field&, const interaction::Similarity& similarity) {
 bool holds(const Field&, const interaction::RoomPanel& panel) {
     return is_finite(panel.pose);
 }
-bool holds(const Field& field, const interaction::ClipPlane& clip) {
+/// A plane with a `point` and a unit `normal`.
+bool is_plane(const Field& field, const auto& plane) {
     constexpr double kOff = 1e-6; ///< tolerance of a unit vector's length
-    return holds(field, clip.point) && std::abs(glm::length(clip.normal) - 1) < kOff;
+    return holds(field, plane.point) && std::abs(glm::length(plane.normal) - 1) < kOff;
+}
+bool holds(const Field& field, const interaction::ClipPlane& clip) {
+    return is_plane(field, clip);
+}
+bool holds(const Field& field, const interaction::ClipBox& box) {
+    return holds(field, box.low) && holds(field, box.high) &&
+           (!box.shown || glm::all(glm::lessThan(box.low, box.high)));
+}
+bool holds(const Field& field, const interaction::Slices& slices) {
+    return slices.planes.size() <= interaction::kMostSlices &&
+           slices.picked < interaction::kMostSlices && holds(field, slices.coloring) &&
+           std::ranges::all_of(slices.planes, [&](const auto& p) { return is_plane(field, p); });
 }
 bool holds(const Field& field, const interaction::Mark& mark) {
     return !mark.point || holds(field, mark.point->instant);
+}
+bool holds(const Field& field, const std::vector<interaction::NamedMark>& marks) {
+    return marks.size() <= field.most && std::ranges::all_of(marks, [&](const auto& mark) {
+               return holds(field, mark.point.position) && holds(field, mark.point.instant) &&
+                      std::isfinite(mark.point.value);
+           });
 }
 
 /// A record that no rule above is for: each of its fields holds.
@@ -171,7 +191,7 @@ void apply_to(ExplorerState& state, const interaction::Commands& commands, std::
                 field.high = static_cast<double>(state.isosurfaces.size()) - 1;
             else if (member == &state.instant || member == &state.mark ||
                      member == &state.play_range || member == &state.bookmarks ||
-                     member == &state.keys)
+                     member == &state.keys || member == &state.marks)
                 field.high = static_cast<double>(state.known_steps(held)) - 1;
             else if (member == &state.steps)
                 field.high = static_cast<double>(held);

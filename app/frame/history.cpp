@@ -82,7 +82,7 @@ std::string surface_words(const ExplorerState& before, const ExplorerState& afte
 
 /// What people call a setting, where that is not its key.
 std::string words_of_setting(std::string_view key) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kWords{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 17> kWords{
         {{"picked", "surface that is chosen"},
          {"coloring", "colors"},
          {"look", "look"},
@@ -97,6 +97,7 @@ std::string words_of_setting(std::string_view key) {
          {"eye_separation", "eyes"},
          {"views", "viewpoints"},
          {"clip", "clip plane"},
+         {"clip_box", "clip box"},
          {"tools", "tool"},
          {"orthographic", "projection"}}};
     const auto* const row =

@@ -3,6 +3,7 @@
 
 #include "interaction/navigation/navigator.h"
 #include "interaction/tools/clip_tool.h"
+#include "interaction/tools/slice_tool.h"
 #include "interaction/tools/tool_table.h"
 
 #include <algorithm>
@@ -324,6 +325,33 @@ std::vector<KeyLine> all_lines() {
             if (p.context.settings.clip.shown)
                 p.commands.clip = flipped(p.context.settings.clip);
         });
+    line("Ctrl + 6, Ctrl + Shift + 6", "slice across the next axis, one more slice");
+    add(snap_slice, "snap_slice", kNoOldBit, {{'6', kCtrl}}, kQuiet, "slice across the next axis",
+        [](const Press& p) {
+            p.commands.slices = snapped_next(p.context.settings.slices, p.context.data);
+        });
+    add(add_slice, "add_slice", kNoOldBit, {{'6', kCtrlShift}}, kQuiet, "add a slice",
+        [](const Press& p) {
+            p.commands.slices = with_slice(p.context.settings.slices, p.context.data);
+        });
+    line("Ctrl + Up, Ctrl + Down", "slice by one cell along its normal, and back");
+    add(slice_forward, "slice_forward", kNoOldBit, {{Key::up, kCtrl}}, kQuiet,
+        "slice: one cell along its normal", [](const Press& p) {
+            p.commands.slices = stepped(p.context.settings.slices, true, p.context.data);
+        });
+    add(slice_back, "slice_back", kNoOldBit, {{Key::down, kCtrl}}, kQuiet, "slice: one cell back",
+        [](const Press& p) {
+            p.commands.slices = stepped(p.context.settings.slices, false, p.context.data);
+        });
+    line("Ctrl + H", "slices alone, without the surfaces: on, off");
+    add(slices_alone, "slices_alone", kNoOldBit, {{'H', kCtrl}}, kQuiet,
+        "slices alone: hide the surfaces", [](const Press& p) {
+            Slices slices = p.context.settings.slices;
+            if (!slices.shown())
+                slices = with_slice(slices, p.context.data);
+            slices.alone = !slices.alone;
+            p.commands.slices = slices;
+        });
     line("Delete", removal_words());
     add(remove_made, "remove_made", 53, {Key::del}, kQuiet, "", remove_made_by_tool);
     line("Escape", "leave the tool, a list, a page, or loading");
@@ -357,7 +385,7 @@ const std::array<const ActionRow*, kActions>& rows() {
     return all;
 }
 
-std::optional<Action> action_with(auto ActionRow::* member, const auto& value) {
+std::optional<Action> action_with(auto ActionRow::*member, const auto& value) {
     const auto row =
         std::ranges::find(rows(), value, [&](const ActionRow* each) { return each->*member; });
     return row == rows().end() ? std::nullopt : std::optional((*row)->action);

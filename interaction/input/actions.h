@@ -100,6 +100,11 @@ enum class Action : std::uint8_t {
     next_key,
     previous_key,
     remove_key,
+    snap_slice,
+    add_slice,
+    slice_forward,
+    slice_back,
+    slices_alone,
     count
 };
 /// Each tool can be chosen, too: those actions follow the others.

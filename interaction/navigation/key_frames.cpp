@@ -26,6 +26,8 @@ void each_held(Visit&& visit, Records&... r) {
     visit(r.mark...);
     visit(r.clip...);
     visit(r.ruler...);
+    visit(r.slices...);
+    visit(r.clip_box...);
 }
 
 /// The view of a key for a viewer who stands elsewhere and has turned.

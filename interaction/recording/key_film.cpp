@@ -145,7 +145,7 @@ class KeyedTime {
     std::optional<KeyedNumber> number_;
 };
 
-/// Isovalues, colors and opacities of surfaces, and the clip plane.
+/// Isovalues, colors and opacities of surfaces, and the planes.
 class KeyedSurfaces {
   public:
     KeyedSurfaces(std::span<const KeyFrame> keys, const KeyScene& scene) {
@@ -156,6 +156,7 @@ class KeyedSurfaces {
             return surfaces;
         });
         clips_ = held_by<ClipPlane>(keys, [](const KeyFrame& key) { return key.clip; });
+        slices_ = held_by<Slices>(keys, [](const KeyFrame& key) { return key.slices; });
         const auto& all = surfaces_.values;
         const auto differs = [&](const KeyFrame& key) {
             return key.array && *key.array != keys.front().array.value_or(scene.start.array);
@@ -185,6 +186,10 @@ class KeyedSurfaces {
         const KeyPlace clip = clips_.place(time);
         if (clips_.moves(clip))
             settings.clip = between(*clips_.value(clip), clips_.values[clip.key + 1], clip);
+        const KeyPlace slices = slices_.place(time);
+        if (slices_.moves(slices))
+            settings.slices =
+                between(*slices_.value(slices), slices_.values[slices.key + 1], slices);
     }
 
   private:
@@ -201,20 +206,29 @@ class KeyedSurfaces {
         from.opacity = std::lerp(from.opacity, to.opacity, eased(place));
         return from;
     }
-    /// A plane that is shown at both keys moves between them.
-    static ClipPlane between(ClipPlane from, const ClipPlane& to, const KeyPlace& place) {
-        const double share = eased(place);
-        const glm::dvec3 normal = glm::mix(from.normal, to.normal, share);
+    static void move(auto& plane, const auto& to, double share) {
+        const glm::dvec3 normal = glm::mix(plane.normal, to.normal, share);
         constexpr double kOpposite = 1e-3; // the planes face each other: there is no way between
-        if (!from.shown || !to.shown || glm::length(normal) < kOpposite)
-            return from;
-        from.point = glm::mix(from.point, to.point, share);
-        from.normal = glm::normalize(normal);
+        if (glm::length(normal) < kOpposite)
+            return;
+        plane.point = glm::mix(plane.point, to.point, share);
+        plane.normal = glm::normalize(normal);
+    }
+    /// Planes that are shown at both keys move between them.
+    static ClipPlane between(ClipPlane from, const ClipPlane& to, const KeyPlace& place) {
+        if (from.shown && to.shown)
+            move(from, to, eased(place));
+        return from;
+    }
+    static Slices between(Slices from, const Slices& to, const KeyPlace& place) {
+        for (std::size_t i = 0; i < from.planes.size() && i < to.planes.size(); ++i)
+            move(from.planes[i], to.planes[i], eased(place));
         return from;
     }
 
     Held<std::vector<Isosurface>> surfaces_;
     Held<ClipPlane> clips_;
+    Held<Slices> slices_;
     std::vector<KeyedNumber> isovalues_; ///< for each surface; empty: they change at keys
     std::vector<bool> logarithmic_;
 };

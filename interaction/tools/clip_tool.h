@@ -1,35 +1,24 @@
 // The clip plane: cuts the surfaces open to show their inside.
 #pragma once
 
-#include "interaction/tools/tool.h"
+#include "interaction/tools/clip_box.h"
+#include "interaction/tools/plane_hold.h"
 
 namespace isochron::interaction {
 
 /// While no plane is shown, choosing a place on a surface lays a plane through it, across the ray;
-/// the side towards the hand is cut away. While one is shown, a hand whose button is down holds it:
-/// the plane moves and turns with the hand. The mouse pulls the plane along its normal, at the
-/// point where the mouse's ray hit it; a plane that faces the user moves away as the mouse moves up.
+/// the side towards the hand is cut away. While one is shown, hands hold it (`PlaneHold`). While the
+/// clip box is shown, a hand whose ray meets one of its faces moves that face.
 class ClipTool final : public Tool {
   public:
     ToolOutcome update(std::span<const ToolHand> hands, const ToolContext& now) override;
-    bool takes_drag() const override { return pulled_.has_value(); }
+    bool takes_drag() const override { return hold_.pulls(); }
 
   private:
-    struct Held {
-        Pose hand;
-        ClipPlane plane;
-    };
-    /// The plane as it was when the mouse's button went down, and where the ray hit it.
-    struct Pulled {
-        ClipPlane plane;
-        Pose ray;
-        glm::dvec3 at, normal; ///< the point that was hit and the plane's normal, in the room
-    };
-    void move_with(const ToolHand& hand, const ToolContext& now, Commands& commands);
-    void pull_with(const ToolHand& hand, const ToolContext& now, Commands& commands);
+    std::optional<ClipBox> moved_box(std::span<const ToolHand> hands, const ToolContext& now);
 
-    std::optional<Held> held_;
-    std::optional<Pulled> pulled_;
+    PlaneHold hold_;
+    std::optional<BoxFace> face_; ///< of the box, which is held in the place of the plane
 };
 
 /// The plane through a place, across a direction in the room; the side that it comes from is cut away.
@@ -50,9 +39,5 @@ ClipPlane flipped(ClipPlane plane);
 
 /// Its outline on the data's box.
 ToolDrawing draw_clip(const Settings& settings, const DataFrame& data);
-
-/// The polygon in which a plane cuts the data's box: its corners in order, in physical space; empty
-/// if they do not meet.
-std::vector<glm::dvec3> outline(const ClipPlane& plane, const DataFrame& data);
 
 } // namespace isochron::interaction

@@ -62,8 +62,12 @@ std::vector<ToolHand> ToolBox::hands_with(ToolKind kind, const Reading& now,
 
 bool ToolBox::takes_drag(const Reading& now, const ControlContext& context) const {
     const auto& tool = tools_[static_cast<std::size_t>(context.settings.tools.mouse)];
-    const bool may_begin = context.settings.tools.mouse == ToolKind::clip &&
-                           context.settings.clip.shown && left_down(now) && !left_before(now);
+    const Settings& settings = context.settings;
+    const ToolKind held = settings.tools.mouse;
+    const bool moves_planes =
+        (held == ToolKind::clip && (settings.clip.shown || settings.clip_box.shown)) ||
+        (held == ToolKind::slice && settings.slices.shown());
+    const bool may_begin = moves_planes && left_down(now) && !left_before(now);
     return tool->takes_drag() || may_begin;
 }
 

@@ -5,6 +5,7 @@
 #include "interaction/tools/grab_tool.h"
 #include "interaction/tools/pick_tool.h"
 #include "interaction/tools/ruler_tool.h"
+#include "interaction/tools/slice_tool.h"
 
 namespace isochron::interaction {
 namespace {
@@ -49,8 +50,15 @@ const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table() {
          .looks_at_surfaces = true,
          .make = made<ClipTool>,
          .makes = "clip plane",
-         .made = [](const Settings& settings) { return settings.clip.shown; },
-         .remove = [](Commands& commands) { commands.clip = ClipPlane{}; },
+         .made =
+             [](const Settings& settings) {
+                 return settings.clip.shown || settings.clip_box.shown;
+             },
+         .remove =
+             [](Commands& commands) {
+                 commands.clip = ClipPlane{};
+                 commands.clip_box = ClipBox{};
+             },
          .draw = draw_clip,
          .old_bit = 50},
         {.kind = ToolKind::ruler,
@@ -68,6 +76,19 @@ const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table() {
          .draw = draw_ruler,
          .rows = ruler_rows,
          .old_bit = 51},
+        {.kind = ToolKind::slice,
+         .words = "slice",
+         .effect = "shows the values on a plane; hold the plane to move and turn it",
+         .icon = "M 3 15 L 13 11 L 21 15 L 11 19 Z M 3 15 L 3 8 L 13 4 L 21 8 L 21 15 "
+                 "M 7 14 L 12 17 M 11 12 L 17 16",
+         .found_as = "slice (values on a plane)",
+         .key = KeyStroke('5', Chord::control),
+         .looks_at_surfaces = true,
+         .make = made<SliceTool>,
+         .makes = "slice",
+         .made = [](const Settings& settings) { return settings.slices.shown(); },
+         .remove = [](Commands& commands) { commands.slices = Slices{}; },
+         .draw = draw_slices},
     }};
     return rows;
 }

@@ -69,6 +69,14 @@ struct RandomValue {
                 glm::dvec3(random_rotation(random) * glm::vec3(0, 0, 1))};
         into.normal = glm::normalize(into.normal);
     }
+    void operator()(const Field&, Plane& into) {
+        ClipPlane plane;
+        (*this)(Field{""}, plane);
+        into = {plane.point, plane.normal};
+    }
+    void operator()(const Field&, ClipBox& into) {
+        into = {random() % 2 == 0, glm::dvec3(uniform(random, -9, 0)), glm::dvec3(1, 2, 3)};
+    }
     void operator()(const Field& field, Mark& into) {
         into = {};
         if (!sometimes())

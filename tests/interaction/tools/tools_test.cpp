@@ -1,5 +1,6 @@
 // Tools: what hands do with the tool that they hold.
 #include "interaction/tools/clip_tool.h"
+#include "interaction/tools/slice_tool.h"
 #include "interaction/tools/tool_table.h"
 
 #include "tests/interaction/controls/control_desk.h"
@@ -238,7 +239,7 @@ TEST(Tools, TheOutlineOfAClipPlaneLiesOnThePlaneAndOnTheBox) {
         const glm::dvec3 normal(random_rotation(random) * glm::vec3(0, 0, 1));
         const ClipPlane plane{true, data.at({uniform(random, 0.1, 0.9), 0.5, 0.5}),
                               glm::normalize(normal)};
-        const auto corners = outline(plane, data);
+        const auto corners = outline({plane.point, plane.normal}, data);
         ASSERT_GE(corners.size(), 3u);
         EXPECT_LE(corners.size(), 6u);
         for (const glm::dvec3& corner : corners) {
@@ -252,6 +253,101 @@ TEST(Tools, TheOutlineOfAClipPlaneLiesOnThePlaneAndOnTheBox) {
             EXPECT_GE(on_faces, 2);
         }
     }
+}
+
+/// A desk whose data are 60 x 50 x 60 cells of 1 mm; along z they are uneven if so asked.
+class SliceDesk : public ToolDesk {
+  public:
+    SliceDesk() {
+        context.data.cells = {60, 50, 4};
+        settings.tools.mouse = settings.tools.wand = ToolKind::slice;
+    }
+    const Plane& slice(std::size_t i = 0) const { return settings.slices.planes.at(i); }
+    std::vector<double> uneven{0, 1, 5, 30, 60};
+};
+
+TEST(Tools, AClickLaysASliceAcrossTheAxisThatIsNearestToTheRayAndADragPullsIt) {
+    SliceDesk desk;
+    desk.click(desk.in_room({20, 10, 30}));
+    ASSERT_EQ(desk.settings.slices.planes.size(), 1u);
+    expect_near(desk.slice().normal, {0, 0, 1});
+    expect_near(desk.slice().point, {20, 10, 30}, 1e-3);
+    const glm::dvec3 at = desk.slice().point;
+    desk.mouse(desk.in_room(at), bit(MouseBit::left));
+    desk.mouse(desk.in_room(at) + glm::vec3(0, 0.03f, 0), bit(MouseBit::left), 0.1f);
+    EXPECT_GT(std::abs(desk.slice().point.z - at.z), 0.5) << "it faces the user";
+    expect_near(desk.slice().normal, {0, 0, 1});
+    expect_near({desk.slice().point.x, desk.slice().point.y, 0}, {at.x, at.y, 0});
+    desk.mouse(desk.in_room(at), 0);
+    EXPECT_EQ(desk.settings.slices.planes.size(), 1u);
+}
+
+TEST(Tools, AHandTurnsTheSliceThatItPointsAtAndPicksIt) {
+    SliceDesk desk;
+    desk.settings.slices = with_slice(with_slice({}, desk.context.data), desk.context.data);
+    expect_near(desk.slice(0).normal, {0, 0, 1});
+    expect_near(desk.slice(1).normal, {0, 1, 0});
+    ASSERT_EQ(desk.settings.slices.picked, 1u);
+    const glm::vec3 target = desk.in_room({10, 20, 30});
+    Pose hand{target + glm::vec3(0, 0, 0.5f), {1, 0, 0, 0}}; // towards -z of the room
+    desk.frame({wand_at(hand)});
+    desk.frame({wand_at(hand, kHold)});
+    EXPECT_EQ(desk.settings.slices.picked, 0u);
+    const Plane other = desk.slice(1);
+    hand.orientation = glm::angleAxis(glm::radians(30.0f), glm::vec3(0, 1, 0));
+    desk.frame({wand_at(hand, kHold)});
+    EXPECT_NEAR(std::abs(desk.slice(0).normal.z), std::cos(glm::radians(30.0)), 1e-5);
+    EXPECT_EQ(desk.slice(1), other);
+}
+
+TEST(Tools, ASliceStepsFromVertexToVertexWithinTheDataAndObliqueOnesByACell) {
+    SliceDesk desk;
+    desk.context.data.distances[2] = &desk.uneven;
+    desk.settings.slices.planes = {{{30, 25, 4}, {0, 0, -1}}};
+    for (const double expected : {1.0, 0.0, 0.0}) { // the normal points down
+        desk.tap(bit(Action::slice_forward));
+        EXPECT_NEAR(desk.slice().point.z, expected, 1e-9);
+    }
+    for (const double expected : {1.0, 5.0, 30.0, 60.0, 60.0}) {
+        desk.tap(bit(Action::slice_back));
+        EXPECT_NEAR(desk.slice().point.z, expected, 1e-9);
+    }
+    const glm::dvec3 oblique = glm::normalize(glm::dvec3(1, 0.2, 0));
+    desk.settings.slices.planes = {{{30, 25, 30}, oblique}};
+    desk.tap(bit(Action::slice_forward));
+    // By 1 mm along x, at the same y: one cell along the axis that it is most across.
+    EXPECT_NEAR(glm::dot(desk.slice().point - glm::dvec3(31, 25, 30), oblique), 0, 1e-9);
+}
+
+TEST(Tools, AFaceOfTheClipBoxIsDraggedAndItsPlanesCutWhatIsOutside) {
+    SliceDesk desk;
+    desk.settings.tools.mouse = ToolKind::clip;
+    desk.settings.clip_box = {true, {10, 5, 1}, {50, 45, 3}};
+    desk.context.data.distances[2] = &desk.uneven; // vertex 3 lies at 30
+    const auto planes = cutting_planes(desk.settings, desk.context.data);
+    ASSERT_EQ(planes.size(), 6u);
+    const auto is_cut = [&](const glm::dvec3& at) {
+        return std::ranges::any_of(planes, [&](const auto& cut) { return cut.beyond(at) > 0; });
+    };
+    EXPECT_FALSE(is_cut({10.1, 5.1, 1.1}) || is_cut({49.9, 44.9, 29.9}));
+    for (const glm::dvec3 outside : {glm::dvec3(9.9, 20, 20),
+                                     {50.1, 20, 20},
+                                     {20, 4.9, 20},
+                                     {20, 45.1, 20},
+                                     {20, 20, 0.9},
+                                     {20, 20, 30.1}})
+        EXPECT_TRUE(is_cut(outside)) << outside.x << ' ' << outside.y << ' ' << outside.z;
+    const glm::vec3 on_face = desk.in_room({30, 25, 30});
+    desk.mouse(on_face, bit(MouseBit::left));
+    desk.mouse(on_face + glm::vec3(0, 0.02f, 0), bit(MouseBit::left), 0.1f);
+    const ClipBox moved = desk.settings.clip_box;
+    EXPECT_NE(moved.high.z, 3);
+    EXPECT_EQ(moved.low, glm::dvec3(10, 5, 1));
+    EXPECT_FALSE(desk.settings.clip.shown);
+    desk.mouse(on_face, 0);
+    EXPECT_FALSE(desk.settings.clip.shown) << "a click on the box lays no plane";
+    desk.tap(bit(Action::remove_made));
+    EXPECT_FALSE(desk.settings.clip_box.shown);
 }
 
 } // namespace

@@ -1,0 +1,181 @@
+// Planes that hands move.
+#include "interaction/tools/plane_hold.h"
+
+#include "interaction/navigation/navigation.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace isochron::interaction {
+namespace {
+
+/// Share of the box: the mouse can pull the plane this far outside it.
+constexpr double kBeside = 0.05;
+constexpr double kFaces = 0.12; ///< squared sine below which a plane faces the user: 20 degrees
+constexpr double kAlong = 0.02; ///< squared sine below which a ray runs along the normal
+
+/// Distance along a line, from `at`, to its point that is nearest to a ray; none if the ray runs
+/// nearly along the line.
+std::optional<double> nearest_along(const glm::dvec3& at, const glm::dvec3& direction,
+                                    const Pose& ray) {
+    const glm::dvec3 way = ahead_of(ray), between = glm::dvec3(ray.position) - at;
+    const double cosine = glm::dot(direction, way), sine2 = 1 - cosine * cosine;
+    if (sine2 < kAlong)
+        return std::nullopt;
+    return (glm::dot(between, direction) - cosine * glm::dot(between, way)) / sine2;
+}
+
+/// The place where the ray runs along the line, as towards a plane that faces the user: dragging up
+/// moves the plane away, as far as the cursor moves on it. @param before the ray that met `at`
+double moved_along(const glm::dvec3& at, const glm::dvec3& direction, const Pose& before,
+                   const Pose& ray) {
+    const glm::dvec3 way = ahead_of(before);
+    const glm::dvec3 above =
+        glm::abs(way.y) < 0.99
+            ? glm::dvec3(0, 1, 0)
+            : glm::normalize(glm::dquat(before.orientation)) * glm::dvec3(0, 1, 0);
+    const glm::dvec3 up = glm::normalize(above - glm::dot(above, way) * way);
+    const double away = glm::dot(at - glm::dvec3(before.position), way);
+    const glm::dvec3 now = ahead_of(ray);
+    const glm::dvec3 there = glm::dvec3(ray.position) + away / glm::dot(now, way) * now;
+    const double pushed = glm::dot(there - at, up);
+    return glm::dot(direction, way) > 0 ? pushed : -pushed;
+}
+
+} // namespace
+
+glm::dvec3 ahead_of(const Pose& ray) {
+    return glm::normalize(glm::dquat(ray.orientation)) * glm::dvec3(0, 0, -1);
+}
+
+glm::dvec3 across(int axis, const DataFrame& data) {
+    const glm::dmat4& box = data.physical_from_box;
+    return glm::normalize(
+        glm::cross(glm::dvec3(box[(axis + 1) % 3]), glm::dvec3(box[(axis + 2) % 3])));
+}
+
+std::optional<int> axis_across(const glm::dvec3& normal, const DataFrame& data) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(glm::dot(normal, across(axis, data))) > 1 - 1e-9)
+            return axis;
+    return std::nullopt;
+}
+
+std::optional<PlaneMeeting> meeting_of(const Pose& ray, const Plane& plane,
+                                       const ToolContext& now) {
+    const Similarity& room = now.room_from_physical;
+    const glm::dvec3 from(ray.position), way = ahead_of(ray);
+    const glm::dvec3 normal = normal_in_room(room, plane.normal);
+    const double rate = glm::dot(way, normal);
+    if (rate == 0)
+        return std::nullopt;
+    const double along = glm::dot(transform(room, plane.point) - from, normal) / rate;
+    if (!(along > 0))
+        return std::nullopt;
+    const glm::dvec3 at = from + along * way;
+    const glm::dvec3 in_box = now.session.data.in_box(in_physical(room, at));
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(in_box[axis] >= -kBeside && in_box[axis] <= 1 + kBeside))
+            return std::nullopt;
+    return PlaneMeeting{at, along};
+}
+
+Plane PlaneHold::moved_with(const ToolHand& hand, const Plane& plane, const ToolContext& now) {
+    if (hand.pressed)
+        held_ = Held{*hand.ray, plane};
+    if (!held_)
+        return plane;
+    const Similarity& room = now.room_from_physical;
+    // Treats the plane as a thing in the room that the hand carries.
+    const Similarity before{transform(room, held_->plane.point), {1, 0, 0, 0}, 1.0};
+    const Similarity after = carried(before, held_->hand, *hand.ray);
+    return {in_physical(room, after.translation),
+            glm::normalize(normal_in_physical(
+                room, after.rotation * normal_in_room(room, held_->plane.normal)))};
+}
+
+Plane PlaneHold::pulled_with(const ToolHand& hand, const Plane& plane, const ToolContext& now) {
+    const Similarity& room = now.room_from_physical;
+    if (hand.pressed) {
+        const auto met = meeting_of(*hand.ray, plane, now);
+        pulled_.reset();
+        if (met)
+            pulled_ = Pulled{plane, *hand.ray, met->at, normal_in_room(room, plane.normal)};
+    }
+    if (!pulled_)
+        return plane;
+    const double cosine = glm::dot(pulled_->normal, ahead_of(pulled_->ray));
+    const auto along = 1 - cosine * cosine < kFaces
+                           ? moved_along(pulled_->at, pulled_->normal, pulled_->ray, *hand.ray)
+                           : nearest_along(pulled_->at, pulled_->normal, *hand.ray);
+    if (!along)
+        return plane;
+    Plane pulled = pulled_->plane;
+    pulled.point += (*along * physical_per_meter(room, pulled.normal)) * pulled.normal;
+    return pulled;
+}
+
+Plane PlaneHold::update(std::span<const ToolHand> hands, const Plane& plane,
+                        const ToolContext& now) {
+    Plane after = plane;
+    bool holds = false, pulls = false;
+    for (const ToolHand& hand : hands) {
+        if (!hand.ray || !hand.down)
+            continue;
+        if (hand.is_mouse) {
+            pulls = true;
+            after = pulled_with(hand, after, now);
+        } else if (!holds) {
+            holds = true;
+            after = moved_with(hand, after, now);
+        }
+    }
+    if (!holds)
+        held_.reset();
+    if (!pulls)
+        pulled_.reset();
+    return after;
+}
+
+std::vector<glm::dvec3> outline(const Plane& plane, const DataFrame& data) {
+    std::vector<glm::dvec3> corners;
+    // The corners are where the plane crosses the twelve edges of the box.
+    for (int axis = 0; axis < 3; ++axis)
+        for (int edge = 0; edge < 4; ++edge) {
+            glm::dvec3 from(0.0), to;
+            from[(axis + 1) % 3] = edge & 1;
+            from[(axis + 2) % 3] = edge >> 1;
+            to = from;
+            to[axis] = 1;
+            const glm::dvec3 a = data.at(from), b = data.at(to);
+            const double low = glm::dot(a - plane.point, plane.normal);
+            const double high = glm::dot(b - plane.point, plane.normal);
+            if ((low < 0) != (high < 0))
+                corners.push_back(a + low / (low - high) * (b - a));
+        }
+    if (corners.size() < 3)
+        return {};
+    glm::dvec3 middle(0.0);
+    for (const glm::dvec3& corner : corners)
+        middle += corner / static_cast<double>(corners.size());
+    const glm::dvec3 right = glm::normalize(corners.front() - middle);
+    const glm::dvec3 up = glm::cross(plane.normal, right);
+    std::ranges::sort(corners, {}, [&](const glm::dvec3& corner) {
+        return std::atan2(glm::dot(corner - middle, up), glm::dot(corner - middle, right));
+    });
+    return corners;
+}
+
+std::vector<ToolLine> outline_lines(const Plane& plane, const DataFrame& data,
+                                    const glm::vec4& color) {
+    const std::vector<glm::dvec3> corners = outline(plane, data);
+    std::vector<ToolLine> lines;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        lines.push_back({corners[i], corners[(i + 1) % corners.size()], color});
+    return lines;
+}
+
+} // namespace isochron::interaction

@@ -24,6 +24,7 @@
 #include "index/export/surface_writer.h"
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extractor.h"
+#include "index/extraction/slice_values.h"
 #include "index/file/index_file.h"
 #include "index/file/step_view.h"
 #include "index/indexing/level_chooser.h"
@@ -112,6 +113,10 @@ void cell_thinning_example(std::vector<CellPoint> cells, std::uint64_t most) {
 void cell_ray_example(const ExtractionPtr& shown, const Grid& grid, glm::dvec3 wand,
                       glm::dvec3 ahead) {
 #include "index/extraction/cell_ray.example"
+}
+
+void slice_values_example(const IndexFile& array, const glm::dvec3& at) {
+#include "index/extraction/slice_values.example"
 }
 
 void extractor_example(const std::shared_ptr<const IndexFile>& file, std::uint32_t step,

@@ -51,6 +51,8 @@ class MarkRows {
                 push(tool.makes, row);
         if (commands.bookmarks)
             add(*commands.bookmarks);
+        if (commands.marks)
+            add(*commands.marks);
         for (const std::string& stamp : commands.stamps)
             push("stamp", instant_, stamp);
     }
@@ -66,6 +68,14 @@ class MarkRows {
                 push("bookmark", each.instant, each.name);
         known_ = all;
     }
+    void add(const std::vector<interaction::NamedMark>& all) {
+        for (const interaction::NamedMark& each : all)
+            if (std::ranges::find(marks_, each) == marks_.end()) {
+                const interaction::MarkedPoint& point = each.point;
+                push("mark", {point.position, point.value, point.instant}, each.name);
+            }
+        marks_ = all;
+    }
     Json& push(std::string_view what, index::Instant at, const std::string& name) {
         Json row{
             {"what", what},    {"seconds", nullptr}, {"step", at.step}, {"fraction", at.fraction},
@@ -76,8 +86,9 @@ class MarkRows {
         rows_.push_back(std::move(row));
         return rows_.back();
     }
-    void push(std::string_view what, const interaction::MarkedRow& made) {
-        Json& row = push(what, made.at.value_or(instant_), "");
+    void push(std::string_view what, const interaction::MarkedRow& made,
+              const std::string& name = "") {
+        Json& row = push(what, made.at.value_or(instant_), name);
         row["x"] = made.position.x;
         row["y"] = made.position.y;
         row["z"] = made.position.z;
@@ -88,6 +99,7 @@ class MarkRows {
     std::optional<double> seconds_;
     index::Instant instant_;
     std::vector<interaction::Bookmark> known_;
+    std::vector<interaction::NamedMark> marks_;
     Json rows_ = Json::array();
 };
 

@@ -204,8 +204,14 @@ std::optional<EmptyPicture> why_empty(const PictureFacts& facts) {
     case outside:
     case no_cells: say_values(empty, facts); break;
     case cut_away: {
-        empty.sentence = "The clip plane cuts everything away.";
         Commands commands;
+        if (facts.settings.clip_box.shown) {
+            empty.sentence = "The clip box cuts everything away.";
+            commands.clip_box = interaction::ClipBox{};
+            offer(empty, "Remove the box", std::move(commands));
+            break;
+        }
+        empty.sentence = "The clip plane cuts everything away.";
         commands.clip = facts.settings.clip;
         commands.clip->normal = -commands.clip->normal;
         offer(empty, "Show the other side", std::move(commands));

@@ -1,6 +1,7 @@
 // What an export is asked for.
 #include "app/output/export_request.h"
 
+#include "app/config/first_placement.h"
 #include "app/safe_text.h"
 #include "app/text.h"
 #include "app/version.h"
@@ -8,6 +9,7 @@
 #include "index/readers/formats/length_units.h"
 #include "index/surface/mesh_crop.h"
 #include "interaction/step_track.h"
+#include "interaction/tools/clip_box.h"
 #include "render/gl/srgb.h"
 
 #include <fmt/format.h>
@@ -95,11 +97,13 @@ index::ExportRequest shown_request(const ExplorerState& state,
                               return color_at(colors, share_on(scale, static_cast<double>(value)));
                           }};
     }
-    if (state.clip.shown && state.pictures.surfaces.clipped && !format.of_cells)
-        request.reshape = [plane = state.clip, grid = info.grid](index::CellMesh& mesh,
-                                                                 const index::Query&, const auto&) {
+    const auto cuts = interaction::cutting_planes(state, data_frame(info));
+    if (!cuts.empty() && state.pictures.surfaces.clipped && !format.of_cells)
+        request.reshape = [cuts, grid = info.grid](index::CellMesh& mesh, const index::Query&,
+                                                   const auto&) {
             index::keep_triangles(mesh, [&](const index::MeshVertex& vertex) {
-                return is_left(vertex, grid, plane);
+                return std::ranges::all_of(
+                    cuts, [&](const auto& plane) { return is_left(vertex, grid, plane); });
             });
         };
     return request;

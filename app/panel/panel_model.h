@@ -67,6 +67,8 @@ struct PanelArrays {
 /// The color scale, and the maps that it may have.
 struct PanelColors {
     std::array<double, 2> range{};                 ///< lowest and highest value of the scale
+    std::array<double, 2> slices{};                ///< those of the slices' scale
+    std::size_t sliced = 0;                        ///< number of the array that is sliced
     std::span<const LoadedColorMap> own_maps = {}; ///< maps of the configuration
 };
 

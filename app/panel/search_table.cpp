@@ -14,8 +14,11 @@
 #include "interaction/navigation/axis_views.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/step_track.h"
+#include "interaction/tools/clip_box.h"
+#include "interaction/tools/slice_tool.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -197,9 +200,20 @@ constexpr OtherNames kOtherNames[] = {
               "sample, voxel value, coordinates under mouse"},
     {"pick", "select, click, mark"},
     {"copy", "copy value, copy to clipboard, clipboard, copy coordinates, ctrl c"},
-    {"clip_tool", "clipping plane, cut plane, slice, slice plane, cross section, section, crop, "
-                  "cut, cutting plane, cutaway, clip box, region of interest, roi, subvolume, "
+    {"slice_tool", "slice, slice plane, cross section, section, orthoslice, cut plane, plane, "
+                   "values on a plane, image plane, multiplanar, mpr, contour plot, pseudocolor"},
+    {"snap_slice", "slice, slice z, orthogonal slice, axial, sagittal, coronal, slice x y z"},
+    {"add_slice", "second slice, several slices, three planes"},
+    {"slice", "slice x, slice y, slice z, axial, sagittal, coronal, cross section"},
+    {"slice_forward", "next slice, move slice, scroll slices"},
+    {"slice_back", "previous slice, move slice, scroll slices"},
+    {"slices_alone", "hide surfaces, only slice, show slice only, hide isosurface"},
+    {"remove_slices", "no slice, remove slice, delete slice, hide slice"},
+    {"clip_tool", "clipping plane, cut plane, cross section, section, crop, cut, cutting plane, "
+                  "cutaway, clip box, region of interest, roi, subvolume, "
                   "orthoslice, plane, split, knife, half, inside"},
+    {"clip_box", "clip box, box, region of interest, roi, subvolume, crop, crop box, bounding box"},
+    {"remove_box", "no box, remove crop, show whole"},
     {"snap_clip",
      "slice, slice z, axis aligned clip, cut along axis, crop, orthogonal slice, clip x "
      "y z, cross section"},
@@ -367,7 +381,7 @@ class Lines {
     /// Commands that set something; the line says where it is so already.
     template <class T>
     void value(std::string name, std::string words,
-               std::optional<T> interaction::SettingChanges::* member,
+               std::optional<T> interaction::SettingChanges::*member,
                const std::type_identity_t<T>& wanted, const std::type_identity_t<T>& now) {
         SearchLine& line = add({.name = std::move(name),
                                 .words = std::move(words),
@@ -569,7 +583,7 @@ void add_look(Lines& lines) {
         change(changed);
         lines.value(std::move(name), std::move(words), &Commands::look, changed, now);
     };
-    const auto add_each = [&](const char* setting, auto Look::* member) {
+    const auto add_each = [&](const char* setting, auto Look::*member) {
         using Value = std::decay_t<decltype(now.*member)>;
         lines.control(setting, setting, std::string(name_of(now.*member)), kView);
         const std::vector<std::string> names = interaction::all_names<Value>();
@@ -692,6 +706,34 @@ void add_tools(Lines& lines) {
            interaction::Ruler{});
     remove("remove_clip", "remove the clip plane", asked.clip.shown, &Commands::clip,
            interaction::ClipPlane{});
+    if (asked.clip_box.shown)
+        remove("remove_box", "remove the clip box", true, &Commands::clip_box,
+               interaction::ClipBox{});
+    else
+        lines.value("clip_box", "clip box around the data", &Commands::clip_box,
+                    interaction::whole_box(lines.model().data), asked.clip_box);
+    remove("remove_slices", "remove the slices", asked.slices.shown(), &Commands::slices,
+           interaction::Slices{});
+    const interaction::Slices& slices = asked.slices;
+    constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+    for (int axis = 0; axis < 3; ++axis) {
+        const char* const name = kAxes[static_cast<std::size_t>(axis)];
+        const interaction::Slices across = snapped(slices, axis, lines.model().data);
+        Commands commands;
+        commands.slices = across;
+        lines
+            .add({.name = fmt::format("slice={}", name),
+                  .words = fmt::format("slice across {}", name),
+                  .commands = commands})
+            .with_number = [across, &unit = lines.model().info.length_unit](double number) {
+            interaction::Slices there = across;
+            interaction::Plane& plane = there.planes[there.picked];
+            plane.point += (number - glm::dot(plane.point, plane.normal)) * plane.normal;
+            NumberEffect effect{with_unit(number, unit), {}};
+            effect.commands.slices = there;
+            return effect;
+        };
+    }
 }
 
 Commands shown_at(const PanelModel& model, index::Instant at) {
@@ -784,7 +826,7 @@ void add_pictures(Lines& lines) {
         change(*commands.pictures);
         return commands;
     };
-    const auto part = [&](const char* name, const char* words, bool WrittenPictures::* member) {
+    const auto part = [&](const char* name, const char* words, bool WrittenPictures::*member) {
         lines.on_or_off(name, words, now.*member, changed([member](WrittenPictures& pictures) {
                             pictures.*member = !(pictures.*member);
                         }));
@@ -806,8 +848,8 @@ void add_pictures(Lines& lines) {
              .commands =
                  changed([=](WrittenPictures& pictures) { pictures.background = background; })});
     }
-    const auto number_of = [&](const char* name, const char* words,
-                               double WrittenPictures::* member, double low, double high) {
+    const auto number_of = [&](const char* name, const char* words, double WrittenPictures::*member,
+                               double low, double high) {
         lines
             .add({.name = name,
                   .words = words,

@@ -143,12 +143,20 @@ std::vector<Callout> callouts_of(const Picture& picture,
     if (const auto& mark = picture.mark.point)
         callouts.push_back({in_room(mark->position), mark_lines(*mark, info),
                             readable(kMarkColor, overlay), CalloutSign::cross});
+    for (const interaction::NamedMark& mark : picture.marks)
+        if (!picture.mark.point || mark.point.position != picture.mark.point->position)
+            callouts.push_back({in_room(mark.point.position),
+                                {mark.name},
+                                readable(kMarkColor, overlay),
+                                CalloutSign::cross});
     for (const interaction::ToolLabel& label : picture.tools.labels)
         callouts.push_back({in_room(label.at), {label.text}, overlay.text, CalloutSign::none});
     if (pointed && pointed->surface < picture.isosurfaces.size())
         callouts.push_back({in_room(pointed->point.position),
                             pointed_lines(*pointed, picture.isosurfaces.size(), info),
-                            readable(picture.isosurfaces[pointed->surface].color, overlay),
+                            pointed->on_slice
+                                ? overlay.text
+                                : readable(picture.isosurfaces[pointed->surface].color, overlay),
                             CalloutSign::dot});
     return callouts;
 }

@@ -13,13 +13,14 @@ namespace {
 
 /// Whether cells hide by their depth what is drawn after them.
 bool hides_by_depth(const Picture& picture) {
-    return picture.footprint != render::Footprint::gaussian &&
-           !interaction::any_is(picture.isosurfaces, true);
+    return !picture.surfaces || (picture.footprint != render::Footprint::gaussian &&
+                                 !interaction::any_is(picture.isosurfaces, true));
 }
 
 /// The picture without what is drawn over cells.
 Picture without_lines(Picture picture) {
     picture.mark = {};
+    picture.marks.clear();
     picture.pointed.reset();
     picture.tools = {};
     picture.guides = {};

@@ -11,12 +11,30 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace isochron::app {
 namespace {
 
 std::string with_brackets(const std::string& name, const std::string& unit) {
     return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+}
+
+/// The scale with its range and its map. @param range empty: the whole one
+ColorScale used_as(const interaction::Coloring& coloring,
+                   const std::optional<std::array<double, 2>>& range, ColorScale scale) {
+    scale.range = range.value_or(scale.whole);
+    scale.map = coloring.map;
+    scale.colors = coloring.colors;
+    scale.use = {coloring.reversed, coloring.bands};
+    if (coloring.logarithmic && scale.range[1] > 0) {
+        // Without a range of its own a map goes by logarithms over six decades at most.
+        constexpr double kDecades = 1e-6;
+        if (!range && !(scale.range[0] > kDecades * scale.range[1]))
+            scale.range[0] = kDecades * scale.range[1];
+        scale.logarithmic = scale.range[0] > 0;
+    }
+    return scale;
 }
 
 } // namespace
@@ -65,18 +83,31 @@ std::optional<ColorScale> color_scale(const ExplorerState& state, const index::I
     std::optional<std::array<double, 2>> range = state.coloring.range;
     if (!range && state.coloring.percentiles)
         range = cached.of(shown, scale.whole, *state.coloring.percentiles);
-    scale.range = range.value_or(scale.whole);
-    scale.map = state.coloring.map;
-    scale.colors = state.coloring.colors;
-    scale.use = {state.coloring.reversed, state.coloring.bands};
-    if (state.coloring.logarithmic && scale.range[1] > 0) {
-        // Without a range of its own a map goes by logarithms over six decades at most.
-        constexpr double kDecades = 1e-6;
-        if (!range && !(scale.range[0] > kDecades * scale.range[1]))
-            scale.range[0] = kDecades * scale.range[1];
-        scale.logarithmic = scale.range[0] > 0;
+    return used_as(state.coloring, range, std::move(scale));
+}
+
+std::size_t slice_array(const ExplorerState& state, const index::IndexFile& file) {
+    const auto named = file.array_called(state.slices.coloring.array);
+    return state.slices.coloring.array.empty() || !named
+               ? file.array_called(state.array).value_or(0)
+               : *named;
+}
+
+ColorScale slice_scale(const ExplorerState& state, const index::IndexFile& file,
+                       std::size_t number) {
+    const index::IndexFile& array = file.array(number);
+    const interaction::Coloring& coloring = state.slices.coloring;
+    ColorScale scale;
+    scale.title = with_brackets(array.info().array, array.info().value_unit);
+    scale.whole = {array.stats().low, array.stats().high};
+    std::optional<std::array<double, 2>> range = coloring.range;
+    if (!range && coloring.percentiles) {
+        const auto [low, high] = *coloring.percentiles;
+        range = {quantile(array.stats(), low / 100), quantile(array.stats(), high / 100)};
+        if (!((*range)[0] < (*range)[1]))
+            range.reset();
     }
-    return scale;
+    return used_as(coloring, range, std::move(scale));
 }
 
 std::vector<glm::vec3> colors_of(const ColorScale& scale) {

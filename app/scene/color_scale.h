@@ -64,4 +64,11 @@ std::size_t color_array(const ExplorerState& state, const index::IndexFile& file
 std::optional<ColorScale> color_scale(const ExplorerState& state, const index::IndexFile& file,
                                       const index::ExtractionPtr& shown, PercentileRange& cached);
 
+/// Number of the array that is sliced, as `index::IndexFile::array` takes it.
+std::size_t slice_array(const ExplorerState& state, const index::IndexFile& file);
+
+/// The scale of slices through an array. @param number of the array
+ColorScale slice_scale(const ExplorerState& state, const index::IndexFile& file,
+                       std::size_t number);
+
 } // namespace isochron::app

@@ -63,16 +63,19 @@ std::optional<BoxCorners> corners_of(const index::Extraction& cells, const index
 }
 
 bool is_cut_away(const index::Extraction& cells, const index::Grid& grid, std::uint32_t visible,
-                 const interaction::ClipPlane& clip) {
-    if (!clip.shown)
+                 std::span<const interaction::ClipPlane> cuts) {
+    if (cuts.empty())
         return false;
-    const auto is_beyond = [&](const glm::dvec3& at) { return clip.beyond(at) > 0; };
-    if (std::ranges::all_of(corners_of(grid), is_beyond))
-        return true;
-    return each_cell(cells, grid, visible, [&](const Cell& cell) {
-        const glm::dvec3 low{cell[0], cell[1], cell[2]};
-        return std::ranges::all_of(corners_between(grid, low, low + 1.0), is_beyond);
-    });
+    const auto is_away = [&](const BoxCorners& corners) {
+        return std::ranges::any_of(cuts, [&](const interaction::ClipPlane& cut) {
+            return std::ranges::all_of(corners,
+                                       [&](const glm::dvec3& at) { return cut.beyond(at) > 0; });
+        });
+    };
+    return is_away(corners_of(grid)) || each_cell(cells, grid, visible, [&](const Cell& cell) {
+               const glm::dvec3 low{cell[0], cell[1], cell[2]};
+               return is_away(corners_between(grid, low, low + 1.0));
+           });
 }
 
 Sight sight_of(const BoxCorners& box, const interaction::Similarity& room_from_physical,

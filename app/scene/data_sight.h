@@ -26,10 +26,10 @@ BoxCorners corners_of(const index::Grid& grid);
 std::optional<BoxCorners> corners_of(const index::Extraction& cells, const index::Grid& grid,
                                      std::uint32_t visible);
 
-/// Whether all cells of the visible surfaces lie on the side that is cut away. @return false where
-/// the clip plane is not shown, and where the cells are of coarser levels
+/// Whether each cell of the visible surfaces lies beyond one of the planes that cut. @return false
+/// where the cells are of coarser levels
 bool is_cut_away(const index::Extraction& cells, const index::Grid& grid, std::uint32_t visible,
-                 const interaction::ClipPlane& clip);
+                 std::span<const interaction::ClipPlane> cuts);
 
 /// How a box lies in the views; `in_view` also without a view. Where it is not certain that nothing
 /// is seen of the box, it is in view.

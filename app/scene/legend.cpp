@@ -75,10 +75,11 @@ class Layout {
 
 void write_scale(const ColorScale& scale, Layout& layout) {
     const std::vector<glm::vec3> colors = colors_of(scale);
-    layout.fill_rimmed({0.0f, 0.5f}, {kBarWidth, kBarHeight}, layout.overlay().paper);
+    const float foot = layout.top() + (layout.top() > 0.0f ? 1.0f : 0.5f);
+    layout.fill_rimmed({0.0f, foot}, {kBarWidth, kBarHeight}, layout.overlay().paper);
     for (int i = 0; i < kPatches; ++i) {
         const std::size_t at = i * (colors.size() - 1) / (kPatches - 1);
-        layout.fill({0.0f, 0.5f + kBarHeight * static_cast<float>(i) / kPatches},
+        layout.fill({0.0f, foot + kBarHeight * static_cast<float>(i) / kPatches},
                     {kBarWidth, kBarHeight / kPatches},
                     glm::vec4(render::srgb_from_linear(colors[at]), 1.0f));
     }
@@ -88,20 +89,20 @@ void write_scale(const ColorScale& scale, Layout& layout) {
     for (std::size_t i = 0; i < ticks.values.size(); ++i) {
         const double value = ticks.values[i];
         const auto up = static_cast<float>(share_on(scale, value));
-        const float y = 0.5f + kBarHeight * up;
+        const float y = foot + kBarHeight * up;
         layout.fill_rimmed({kBarWidth, y - 0.04f}, {0.4f, 0.08f}, layout.overlay().text);
         layout.write(scale.dates_of.empty()
                          ? tick_text(value, scale.logarithmic ? value : ticks.step)
                          : index::time_text(ticks.values, i, scale.dates_of),
                      {kBarWidth + 0.7f, y});
     }
-    layout.write(scale.title, {0.0f, kBarHeight + 1.6f});
+    layout.write(scale.title, {0.0f, foot + kBarHeight + 1.1f});
 }
 
 void write_surfaces(const Legend& legend, Layout& layout) {
     float y = layout.top() + (layout.top() > 0.0f ? 1.0f : 0.5f);
     for (const interaction::Isosurface& surface : legend.surfaces) {
-        if (!legend.scale)
+        if (!legend.colored)
             layout.fill_rimmed({0.0f, y - 0.4f}, {kBarWidth, 0.8f}, glm::vec4(surface.color, 1.0f));
         layout.write(with_unit(surface.isovalue, legend.value_unit), {kBarWidth + 0.7f, y});
         y += 1.3f;
@@ -125,11 +126,11 @@ float line_scale(const glm::ivec2& picture, float share) {
 std::vector<render::ScreenQuad> legend_quads(const Legend& legend, const render::TextPass& text,
                                              const glm::ivec2& picture, float share) {
     const bool several = legend.surfaces.size() > 1;
-    if (!legend.scale && !several)
+    if (legend.scales.empty() && !several)
         return {};
     Layout layout(text, picture, legend.overlay, share);
-    if (legend.scale)
-        write_scale(*legend.scale, layout);
+    for (const ColorScale& scale : legend.scales)
+        write_scale(scale, layout);
     if (several)
         write_surfaces(legend, layout);
     return layout.finish();

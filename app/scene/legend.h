@@ -19,7 +19,8 @@ namespace isochron::app {
 struct Legend {
     std::span<const interaction::Isosurface> surfaces; ///< listed if there are several
     std::string value_unit;                            ///< unit of their isovalues
-    std::optional<ColorScale> scale;                   ///< scale of colored surfaces; empty: none
+    std::vector<ColorScale> scales; ///< of colored surfaces and of slices, from below
+    bool colored = false;           ///< surfaces are colored by the first of them
     OverlayColors overlay{};
 };
 

@@ -67,12 +67,14 @@ int digits_of(index::ValueType type) {
     return type == index::ValueType::f64 || type == index::ValueType::i32 ? 10 : 6;
 }
 
-std::string value_text(double value, const index::SeriesInfo& info) {
-    return fmt::format("{:.{}g}{}", value, digits_of(info.type), with_space(info.value_unit));
+std::string value_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info) {
+    return fmt::format("{:.{}g}{}", point.value, digits_of(info.type),
+                       with_space(point.array.empty() ? info.value_unit : point.unit));
 }
 
-std::string named_value(double value, const index::SeriesInfo& info) {
-    return fmt::format("{} {}", info.array.empty() ? "value" : info.array, value_text(value, info));
+std::string named_value(const interaction::MarkedPoint& point, const index::SeriesInfo& info) {
+    const std::string& array = point.array.empty() ? info.array : point.array;
+    return fmt::format("{} {}", array.empty() ? "value" : array, value_text(point, info));
 }
 
 std::string time_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info) {
@@ -85,10 +87,10 @@ std::string time_text(const interaction::MarkedPoint& point, const index::Series
 
 std::string mark_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info,
                       const std::function<bool(const std::string&)>& fits) {
-    const std::string place = place_text(point, info), value = named_value(point.value, info);
+    const std::string place = place_text(point, info), value = named_value(point, info);
     const std::array texts{fmt::format("{}, {}, {}", place, value, time_text(point, info)),
                            fmt::format("{}, {}", place, value), value,
-                           value_text(point.value, info)};
+                           value_text(point, info)};
     for (const std::string& text : texts)
         if (!fits || fits(text))
             return text;
@@ -97,16 +99,16 @@ std::string mark_text(const interaction::MarkedPoint& point, const index::Series
 
 std::vector<std::string> mark_lines(const interaction::MarkedPoint& point,
                                     const index::SeriesInfo& info) {
-    return {named_value(point.value, info), place_text(point, info), time_text(point, info)};
+    return {named_value(point, info), place_text(point, info), time_text(point, info)};
 }
 
 std::vector<std::string> pointed_lines(const interaction::Pointed& pointed, std::size_t surfaces,
                                        const index::SeriesInfo& info) {
-    std::vector<std::string> lines{named_value(pointed.point.value, info),
+    std::vector<std::string> lines{named_value(pointed.point, info),
                                    place_text(pointed.point, info)};
     if (pointed.point.instant.between())
         lines.push_back(steps_text(pointed.point.instant));
-    if (surfaces > 1)
+    if (surfaces > 1 && !pointed.on_slice)
         lines.push_back(fmt::format("surface {} of {}", pointed.surface + 1, surfaces));
     return lines;
 }

@@ -66,8 +66,10 @@ bool MovingCells::draw_moved(const CellsPicture& kept, const Picture& picture,
 
 void MovingCells::draw_in_few_pixels(const Cells& cells, const Picture& picture,
                                      std::span<const render::View> views) {
-    enlarge_.begin(views, kCellResolutions[picture.resolution], cells.appearance.linear_light);
     const bool layers = moves_in_layers(picture, render::Footprint::quad);
+    if (layers && !picture.slices.empty()) // whose depths layers need
+        return draw_in_layers(cells, picture, render::Footprint::quad, views);
+    enlarge_.begin(views, kCellResolutions[picture.resolution], cells.appearance.linear_light);
     if (layers)
         draw_in_layers(cells, picture, render::Footprint::quad, enlarge_.few());
     else
@@ -113,7 +115,7 @@ void MovingCells::draw_in_layers(const Cells& cells, const Picture& picture,
             one.surfaces[surfaces[layer]].opacity = 1.0f;
             draw(one);
         },
-        some_opaque, cells.appearance.linear_light, box_of(picture));
+        some_opaque || !picture.slices.empty(), cells.appearance.linear_light, box_of(picture));
 }
 
 void MovingCells::warm_up(const Picture& picture, std::span<const render::View> views,

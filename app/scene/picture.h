@@ -5,6 +5,7 @@
 #include "app/scene/color_scale.h"
 #include "app/scene/guides.h"
 #include "index/extraction/extraction.h"
+#include "index/extraction/slice_values.h"
 #include "index/volume/volume_series.h"
 #include "interaction/commands.h"
 #include "interaction/pointed.h"
@@ -50,13 +51,22 @@ struct ShownValues {
     bool operator==(const ShownValues&) const = default;
 };
 
+/// A slice, and how its values are shown.
+struct ShownSlice {
+    index::SliceValuesPtr values;
+    ColorScale scale;
+    std::vector<interaction::Isosurface> lines; ///< drawn where its values are theirs
+    bool operator==(const ShownSlice&) const = default;
+};
+
 /// Everything that the eyes' pictures depend on.
 struct Picture {
     Audience audience;
     interaction::Mark mark;
+    std::vector<interaction::NamedMark> marks;
     std::optional<interaction::Pointed> pointed;
     interaction::ToolDrawing tools;
-    interaction::ClipPlane clip;
+    std::vector<interaction::ClipPlane> cuts; ///< away what is beyond any of them
     Guides guides;
     render::Veil veil;
     interaction::Similarity room_from_physical;
@@ -65,6 +75,8 @@ struct Picture {
     index::ExtractionPtr cells;
     std::vector<interaction::Isosurface> isosurfaces;
     ShownValues values; ///< whose surfaces they are
+    bool surfaces = true;           ///< surfaces are drawn
+    std::vector<ShownSlice> slices; ///< beside them
     interaction::Look look;
     bool transparent = false;        ///< nothing is drawn behind the data, whatever `look` says
     std::optional<ColorScale> scale; ///< empty: colors tell surfaces apart

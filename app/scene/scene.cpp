@@ -68,14 +68,16 @@ glm::vec3 in_room(const Picture& picture, const glm::dvec3& at) {
     return glm::vec3(interaction::transform(picture.room_from_physical, at));
 }
 
-/// The plane that cuts the surfaces, in the room.
-std::optional<glm::vec4> cut_of(const Picture& picture) {
-    if (!picture.clip.shown)
-        return std::nullopt;
-    const glm::dvec3 normal =
-        interaction::normal_in_room(picture.room_from_physical, picture.clip.normal);
-    const glm::dvec3 at = interaction::transform(picture.room_from_physical, picture.clip.point);
-    return glm::vec4(glm::dvec4(normal, -glm::dot(normal, at)));
+/// The planes that cut the surfaces, in the room.
+std::vector<glm::vec4> cuts_of(const Picture& picture) {
+    std::vector<glm::vec4> planes;
+    for (const interaction::ClipPlane& cut : picture.cuts) {
+        const glm::dvec3 normal =
+            interaction::normal_in_room(picture.room_from_physical, cut.normal);
+        const glm::dvec3 at = interaction::transform(picture.room_from_physical, cut.point);
+        planes.emplace_back(glm::dvec4(normal, -glm::dot(normal, at)));
+    }
+    return planes;
 }
 
 bool hidden_by_panel(const Picture& picture, const render::View& view, const glm::vec3& at) {
@@ -132,8 +134,8 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
     : gl_(gl), info_(info), configured_(config.rendering.appearance), cells_(gl, info.grid, config),
       kept_(gl), shape_(config.rendering.cell_shape),
       cell_pass_(gl, {.shape = shape_}, render::prelude_for(info.grid)), line_pass_(gl),
-      text_pass_(gl, room_font), panel_pass_(gl), background_pass_(gl), moving_(gl, info.grid),
-      veil_pass_(gl) {
+      slice_pass_(gl, info.grid), text_pass_(gl, room_font), panel_pass_(gl), background_pass_(gl),
+      moving_(gl, info.grid), veil_pass_(gl) {
     configured_.linear_light = blends_light(gl, config.rendering.blending);
     configured_.near_fade.reset();
     if (const glm::vec2 near = config.comfort.near_fade; near.y > 0)
@@ -157,17 +159,48 @@ render::CellAppearance Scene::appearance_of(const Picture& picture) {
     for (std::size_t i = 0; i < picture.isosurfaces.size(); ++i)
         appearance.surfaces[i] = {picture.isosurfaces[i].color, picture.isosurfaces[i].opacity};
     appearance.values.reset();
-    if (picture.scale) {
-        if (!mapped_ || !same_map(*mapped_, *picture.scale)) {
-            map_.emplace(render::color_map_texture(gl_, colors_of(*picture.scale)));
-            mapped_ = picture.scale;
-        }
-        appearance.values = value_colors(*picture.scale, *map_);
-    }
+    if (picture.scale)
+        appearance.values = value_colors(*picture.scale, map_of(*picture.scale));
     set_look(appearance, configured_, picture.look);
-    appearance.cut = cut_of(picture);
+    appearance.cuts = cuts_of(picture);
     appearance.mesh_level = picture.mesh_level;
     return appearance;
+}
+
+const render::Texture& Scene::map_of(const ColorScale& scale) {
+    constexpr std::size_t kScales = 2; // of surfaces and of slices
+    const auto known =
+        std::ranges::find_if(maps_, [&](const auto& each) { return same_map(each.first, scale); });
+    if (known != maps_.end()) {
+        std::rotate(known, known + 1, maps_.end()); // the last that was needed stays longest
+        return maps_.back().second;
+    }
+    if (maps_.size() == kScales)
+        maps_.pop_front();
+    maps_.emplace_back(scale, render::color_map_texture(gl_, colors_of(scale)));
+    return maps_.back().second;
+}
+
+/// Before the cells: slices are opaque, and hide by their depth what is behind them.
+void Scene::draw_slices(std::span<const render::View> views, const Picture& picture,
+                        const render::Placement& placement) {
+    std::vector<index::SliceValuesPtr> values;
+    for (const ShownSlice& slice : picture.slices)
+        values.push_back(slice.values);
+    slice_pass_.hold(values);
+    for (const ShownSlice& slice : picture.slices) {
+        const auto [low, high] = slice.scale.whole;
+        const double half = high / 2 - low / 2;
+        std::vector<render::Isoline> lines;
+        for (const interaction::Isosurface& line : slice.lines)
+            if (half > 0)
+                lines.push_back(
+                    {static_cast<float>((line.isovalue / 2 - low / 2) / half), line.color});
+        for (const render::View& view : views)
+            slice_pass_.draw(view, placement.room_from_index, *slice.values,
+                             value_colors(slice.scale, map_of(slice.scale)), lines,
+                             width_of(kThin, view, picture));
+    }
 }
 
 render::Placement Scene::placement_of(const Picture& picture) const {
@@ -197,17 +230,23 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     const bool moved =
         picture.moved && is_whole && !again && moving_.draw_moved(kept_, picture, views);
     const bool layers = is_whole && is_ready_to_move() && moving_.draws_layers(picture, footprint);
-    const bool depth = moved || (writes_depth(footprint, appearance) && !layers);
+    const bool depth =
+        moved || !picture.surfaces || (writes_depth(footprint, appearance) && !layers);
+    if (part.begins && !again && !moved)
+        draw_slices(views, picture, placement);
     if (!depth && part.begins)
         draw_among_cells(views, picture, placement);
-    if (!moved && render::CellPass::needs_corners(cells_.drawn(), footprint, appearance))
+    if (!moved && picture.surfaces &&
+        render::CellPass::needs_corners(cells_.drawn(), footprint, appearance))
         cells_.compute_corners();
     if (appearance.near_fade && !views.empty()) // all views are of one viewer
         appearance.near_fade->between_eyes = head_of(views.front(), picture.audience.viewers);
     std::size_t done = 0;
     const MovingCells::Cells cells{cell_pass_, cells_.drawn(), appearance};
     const bool anew = !again && !moved;
-    if (anew && is_whole && picture.resolution > 0 && footprint == render::Footprint::quad)
+    if (!picture.surfaces)
+        ; // only what stands beside them
+    else if (anew && is_whole && picture.resolution > 0 && footprint == render::Footprint::quad)
         moving_.draw_in_few_pixels(cells, picture, views);
     else if (anew && layers)
         moving_.draw_in_layers(cells, picture, footprint, views);
@@ -344,9 +383,17 @@ Scene::CornerWords Scene::words_in_corners(const render::View& view, const Pictu
     const OverlayColors overlay = overlay_of(picture);
     const float share = picture.layout.text;
     CornerWords words;
-    if (picture.legend)
-        words.legend = legend_quads({picture.isosurfaces, info_.value_unit, picture.scale, overlay},
+    if (picture.legend) {
+        std::vector<ColorScale> scales;
+        if (picture.scale && picture.surfaces)
+            scales.push_back(*picture.scale);
+        for (const ShownSlice& slice : picture.slices)
+            if (std::ranges::find(scales, slice.scale) == scales.end())
+                scales.push_back(slice.scale);
+        words.legend = legend_quads({picture.isosurfaces, info_.value_unit, scales,
+                                     picture.scale && picture.surfaces, overlay},
                                     text_pass_, view.size, share);
+    }
     if (picture.orientation)
         words.orientation =
             orientation_in(view, picture.room_from_physical, info_, text_pass_, overlay, share);

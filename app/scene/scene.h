@@ -20,12 +20,15 @@
 #include "render/passes/background_pass.h"
 #include "render/passes/line_pass.h"
 #include "render/passes/panel_pass.h"
+#include "render/passes/slice_pass.h"
 #include "render/passes/text_pass.h"
 #include "render/passes/veil_pass.h"
 
+#include <deque>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -101,6 +104,10 @@ class Scene {
     void speak_of(const ShownValues& values);
     render::CellAppearance appearance_of(const Picture& picture);
     render::Placement placement_of(const Picture& picture) const;
+    /// The texture of a scale's colors, kept with those of the last scales.
+    const render::Texture& map_of(const ColorScale& scale);
+    void draw_slices(std::span<const render::View> views, const Picture& picture,
+                     const render::Placement& placement);
     void draw_among_cells(std::span<const render::View> views, const Picture& picture,
                           const render::Placement& placement);
     /// Legend, scale bar with axes, and caption of a view, as far as the picture has them.
@@ -132,8 +139,7 @@ class Scene {
     index::SeriesInfo info_;
     render::CellAppearance configured_; ///< on which a picture's appearance is based
     CellSets cells_;
-    std::optional<ColorScale> mapped_; ///< the last scale whose map was needed
-    std::optional<render::Texture> map_;
+    std::deque<std::pair<ColorScale, render::Texture>> maps_; ///< of the last scales
     CellsPicture kept_;
     const render::CellShape shape_;
     render::CellPass cell_pass_;
@@ -147,6 +153,7 @@ class Scene {
     };
     std::optional<FewWays> few_;
     render::LinePass line_pass_;
+    render::SlicePass slice_pass_;
     render::TextPass text_pass_;
     render::PanelPass panel_pass_;
     render::BackgroundPass background_pass_;

@@ -1,7 +1,11 @@
 // Watches whether the picture shows a surface.
 #include "app/session/nothing_seen.h"
 
+#include "app/config/first_placement.h"
+#include "interaction/tools/clip_box.h"
+
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -20,11 +24,12 @@ std::vector<std::uint64_t> cells_of(const index::Extraction& cells) {
 void NothingSeen::know(const index::Extraction& cells, const index::Grid& grid,
                        const ExplorerState& state) {
     const std::uint32_t visible = interaction::visible(state.isosurfaces);
+    auto cuts = interaction::cutting_planes(state, data_frame(arrays_.file()->info()));
     if (known_ && known_->extraction == cells.number && known_->visible == visible &&
-        known_->clip == state.clip)
+        known_->cuts == cuts)
         return;
-    known_ = {cells.number, visible, state.clip, corners_of(cells, grid, visible),
-              is_cut_away(cells, grid, visible, state.clip)};
+    const bool away = is_cut_away(cells, grid, visible, cuts);
+    known_ = {cells.number, visible, std::move(cuts), corners_of(cells, grid, visible), away};
 }
 
 Sight NothingSeen::sight(const Frame& frame, const Seen& seen) const {
@@ -55,7 +60,7 @@ void NothingSeen::update(const Frame& frame, const Seen& seen) {
         surveyor_.finish();
     }
     why_.reset();
-    if (!alone || !answered || state.playback.playing)
+    if (!alone || !answered || state.playback.playing || state.slices.shown())
         return;
     const index::IndexFile& array = arrays_.shown(state);
     PictureFacts facts{.settings = state,

@@ -46,7 +46,7 @@ class NothingSeen {
     struct Known {
         std::uint64_t extraction = 0; ///< number of it
         std::uint32_t visible = 0;    ///< a bit for each surface
-        interaction::ClipPlane clip;
+        std::vector<interaction::ClipPlane> cuts;
         std::optional<BoxCorners> box;
         bool cut_away = false;
     };

@@ -1,11 +1,16 @@
 // Picking by rays, and reading of data.
 #include "app/session/picker.h"
 
+#include "app/config/first_placement.h"
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/value_in_index.h"
+#include "interaction/tools/clip_box.h"
 
 #include <glm/matrix.hpp>
 
+#include <algorithm>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace isochron::app {
@@ -26,15 +31,17 @@ index::Ray ray_of(const Pose& pose, const ExplorerState& state) {
 
 constexpr double kOnPlane = 1e-9; ///< rounding error, relative to the distance from the origin
 
-/// The ray from where it leaves the side that is cut away; empty if it never does.
-std::optional<index::Ray> uncut(index::Ray ray, const ClipPlane& clip) {
-    const double start = clip.shown ? clip.beyond(ray.origin) : 0.0;
-    if (!(start > 0))
-        return ray;
-    const double rate = glm::dot(ray.direction, clip.normal);
-    if (!(rate < 0))
-        return std::nullopt;
-    ray.origin += start / -rate * ray.direction;
+/// The ray from where it leaves the sides that are cut away; empty if it never does.
+std::optional<index::Ray> uncut(index::Ray ray, std::span<const ClipPlane> cuts) {
+    double along = 0;
+    for (const ClipPlane& cut : cuts)
+        if (const double start = cut.beyond(ray.origin); start > 0) {
+            const double rate = glm::dot(ray.direction, cut.normal);
+            if (!(rate < 0))
+                return std::nullopt;
+            along = std::max(along, start / -rate);
+        }
+    ray.origin += along * ray.direction;
     return ray;
 }
 
@@ -45,19 +52,61 @@ Picker::Picker(std::shared_ptr<const index::IndexFile> file)
           return Read{std::nullopt, why};
       }) {}
 
-std::optional<Pointed> Picker::hit_by(const Pose& pose, const ExplorerState& state,
-                                      const index::ExtractionPtr& shown) const {
-    if (!shown)
+void Picker::set_slices(const std::vector<index::SliceValuesPtr>& slices,
+                        const index::SeriesInfo& info) {
+    slices_ = slices;
+    const bool other = info.array != file_->info().array;
+    sliced_ = other ? info.array : std::string();
+    sliced_unit_ = other ? info.value_unit : std::string();
+}
+
+std::optional<Pointed> Picker::surface_hit(const index::Ray& ray, const ExplorerState& state,
+                                           const index::ExtractionPtr& shown) const {
+    if (!shown || state.slices.hides_surfaces())
         return std::nullopt;
-    const auto seen = uncut(ray_of(pose, state), state.clip);
+    const auto cuts = interaction::cutting_planes(state, data_frame(file_->info()));
+    const auto seen = uncut(ray, cuts);
     if (!seen)
         return std::nullopt;
     const auto hit = index::first_hit(*shown, file_->info().grid, *seen,
                                       interaction::visible(state.isosurfaces));
-    if (!hit || (state.clip.shown && state.clip.beyond(hit->at) > kOnPlane * glm::length(hit->at)))
+    const auto is_beyond = [&](const ClipPlane& cut) {
+        return cut.beyond(hit->at) > kOnPlane * glm::length(hit->at);
+    };
+    if (!hit || std::ranges::any_of(cuts, is_beyond))
         return std::nullopt;
     return Pointed{{hit->at, shown->query.instant, shown->query.isovalues[hit->surface]},
                    hit->surface};
+}
+
+std::optional<Pointed> Picker::slice_hit(const index::Ray& ray) const {
+    std::optional<Pointed> first;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const index::SliceValuesPtr& slice : slices_) {
+        const double rate = glm::dot(ray.direction, slice->query.normal);
+        const double along = glm::dot(slice->query.point - ray.origin, slice->query.normal) / rate;
+        if (rate == 0 || !(along > 0 && along < nearest))
+            continue;
+        const glm::dvec3 at = ray.origin + along * ray.direction;
+        const auto value = index::value_on(*slice, file_->info().grid, at);
+        if (!value)
+            continue;
+        nearest = along;
+        first = Pointed{{at, slice->query.instant, *value, sliced_, sliced_unit_}, 0, true};
+    }
+    return first;
+}
+
+std::optional<Pointed> Picker::hit_by(const Pose& pose, const ExplorerState& state,
+                                      const index::ExtractionPtr& shown) const {
+    const index::Ray ray = ray_of(pose, state);
+    const auto surface = surface_hit(ray, state, shown), slice = slice_hit(ray);
+    if (!surface || !slice)
+        return surface ? surface : slice;
+    return glm::distance(surface->point.position, ray.origin) <
+                   glm::distance(slice->point.position, ray.origin)
+               ? surface
+               : slice;
 }
 
 std::optional<Pointed> Picker::pointed(const InputState& input, bool aims,

@@ -3,7 +3,9 @@
 
 #include "app/frame/asker.h"
 #include "app/frame/explorer_state.h"
+#include "index/extraction/cell_ray.h"
 #include "index/extraction/extraction.h"
+#include "index/extraction/slice_values.h"
 #include "index/file/index_file.h"
 #include "interaction/input/device_reading.h"
 #include "interaction/input/tracked_input.h"
@@ -40,7 +42,12 @@ class Picker {
     /// Commands with the mark, if data were read; kept until they are taken.
     interaction::Commands take_found() { return std::exchange(found_, {}); }
 
-    /// Where a ray first meets a visible surface that is not cut away; empty if it meets none.
+    /// Sets the slices that are shown, and the names and units of their values: all of one array.
+    void set_slices(const std::vector<index::SliceValuesPtr>& slices,
+                    const index::SeriesInfo& info);
+
+    /// Where a ray first meets a slice, or a visible surface that is not cut away; empty if it meets
+    /// none.
     std::optional<interaction::Pointed> hit_by(const interaction::Pose& ray,
                                                const ExplorerState& state,
                                                const index::ExtractionPtr& shown) const;
@@ -66,12 +73,18 @@ class Picker {
         std::string message;                   ///< empty: none
     };
     static Read read(const Place& place, const Asking& asking);
+    std::optional<interaction::Pointed> surface_hit(const index::Ray& ray,
+                                                    const ExplorerState& state,
+                                                    const index::ExtractionPtr& shown) const;
+    std::optional<interaction::Pointed> slice_hit(const index::Ray& ray) const;
 
     std::optional<glm::dvec3> place_to_read(const interaction::InputState& input,
                                             const ExplorerState& state,
                                             const index::ExtractionPtr& shown) const;
 
     std::shared_ptr<const index::IndexFile> file_;
+    std::vector<index::SliceValuesPtr> slices_;
+    std::string sliced_, sliced_unit_; ///< the array of the slices
     interaction::ButtonLevels before_;
     interaction::Commands found_;
     std::vector<std::string> messages_;

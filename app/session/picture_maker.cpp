@@ -7,6 +7,7 @@
 #include "interaction/input/device_reading.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/navigation/navigator.h"
+#include "interaction/tools/clip_box.h"
 #include "interaction/tools/tool_table.h"
 
 #include <glm/geometric.hpp>
@@ -142,9 +143,10 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
                      .aids = within.wand || within.pointed,
                      .in_windows = in_windows(frame.report)},
         .mark = state.mark,
+        .marks = state.marks,
         .pointed = within.pointed,
         .tools = drawing_of(state, data_frame(frame.file.info())),
-        .clip = state.clip,
+        .cuts = cutting_planes(state, data_frame(frame.file.info())),
         .guides = {state.grid, interaction::teleport_target(seen)},
         .veil = {static_cast<float>(frame.report.comfort.fade),
                  static_cast<float>(frame.report.comfort.vignette)},
@@ -154,6 +156,8 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
         .cells = sets_.shown(),
         .isosurfaces = state.isosurfaces,
         .values = shown_values(state),
+        .surfaces = !state.slices.hides_surfaces(),
+        .slices = shown_slices(slices_.shown(), state, frame.file),
         .look = state.look,
         .scale = shown_scale(state),
         .bounding_box = state.bounding_box,
@@ -235,6 +239,7 @@ Picture PictureMaker::kept(const Picture& picture,
                        (parts.scale_bar && on_screens_of_desk() && !picture.audience.panel);
     if (!parts.marks) {
         kept.mark = {};
+        kept.marks.clear();
         kept.tools = {};
     }
     if (parts.background != WrittenBackground::shown)

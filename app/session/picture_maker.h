@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/choice/frame.h"
+#include "app/choice/slice_supply.h"
 #include "app/config/config.h"
 #include "app/output/outputs.h"
 #include "app/scene/cell_sets.h"
@@ -19,9 +20,10 @@ class PictureMaker {
   public:
     /// All outlive the maker.
     PictureMaker(const Config& config, const ShownArrays& arrays, const CellSets& sets,
-                 const Outputs& outputs, const SessionPanel& panel, const Picker& picker)
+                 const Outputs& outputs, const SessionPanel& panel, const Picker& picker,
+                 const SliceSupply& slices)
         : config_(config), arrays_(arrays), sets_(sets), outputs_(outputs), panel_(panel),
-          picker_(picker) {}
+          picker_(picker), slices_(slices) {}
 
     /// The picture of this frame, with the footprint of the last one.
     /// @param seen devices that the views are made from
@@ -68,6 +70,7 @@ class PictureMaker {
     const Outputs& outputs_;
     const SessionPanel& panel_;
     const Picker& picker_;
+    const SliceSupply& slices_;
     mutable PercentileRange percentiles_; ///< keeps what it has sorted
     Aids over_;
     std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture

@@ -28,7 +28,8 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
       panel_(config_, outputs_), picker_(file),
       supply_(config_, file, scene_.cells(), std::move(extract),
               render::CellBuffers::wanted_shading(outputs_.gl())),
-      pictures_(config_, arrays_, scene_.cells(), outputs_, panel_, picker_),
+      slices_(file),
+      pictures_(config_, arrays_, scene_.cells(), outputs_, panel_, picker_, slices_),
       choice_(config_, outputs_, log_, scene_, supply_, pictures_),
       partial_(scene_, outputs_, choice_.quality()), samples_(scene_, outputs_, choice_.quality()),
       nothing_(arrays_, outputs_) {
@@ -56,6 +57,7 @@ void Session::set_state(const ExplorerState& state) {
 void Session::grow(std::shared_ptr<const index::IndexFile> file) {
     arrays_.set_file(file);
     picker_.set_file(arrays_.held(state_));
+    slices_.set_file(file);
     supply_.set_file(std::move(file));
 }
 
@@ -149,6 +151,7 @@ PanelModel Session::panel_model(const FrameReport& report) const {
         interaction::Controls::documentation();
     const index::IndexFile& array = arrays_.shown(state_);
     const auto scale = pictures_.scale(state_);
+    const std::size_t sliced = slice_array(state_, *arrays_.file());
     return {.info = array.info(),
             .stats = array.stats(),
             .data = data_frame(arrays_.file()->info()),
@@ -157,6 +160,8 @@ PanelModel Session::panel_model(const FrameReport& report) const {
             .gaps = times_.gaps.steps(),
             .arrays = arrays_.in_panel(state_),
             .colors = {.range = scale ? scale->range : std::array{0.0, 0.0},
+                       .slices = slice_scale(state_, *arrays_.file(), sliced).range,
+                       .sliced = sliced,
                        .own_maps = config_.color_maps},
             .work = {.frames = log_.speed(),
                      .reading = reading(),
@@ -298,7 +303,7 @@ bool Session::is_settled(const Frame& frame) const {
     return frame.is_live() && frames_->alone() && report.final && !plan_.state.is_held() &&
            report.footprint == render::Footprint::surface && !report.moved && !report.extracting &&
            !plan_.state.draws_ahead() && !state_.playback.playing && !supply_.set_comes() &&
-           scene_.cells().is_complete();
+           !slices_.come() && scene_.cells().is_complete();
 }
 
 bool Session::samples_come_later() const {
@@ -344,7 +349,7 @@ FrameAnswer Session::answer() const {
 
 CaptureView Session::capture_view(const FrameReport& frame) const {
     CaptureView view = CaptureView::of(frame, frames_->has_no_answer(supply_.extractor()));
-    if (samples_.are_missing()) {
+    if (samples_.are_missing() || slices_.come()) {
         view.final = false;
         view.improves = true;
     }
@@ -390,6 +395,7 @@ void Session::obey(const Commands& commands, const interaction::InputState& inpu
 
 void Session::set_wake(const std::function<void()>& wake) {
     supply_.set_wake(wake);
+    slices_.set_wake(wake);
     picker_.set_wake(wake);
     nothing_.set_wake(wake);
     outputs_.pictures().set_wake(wake);
@@ -400,9 +406,9 @@ void Session::set_wake(const std::function<void()>& wake) {
 FrameOutlook Session::outlook() const {
     const FrameReport& last = log_.frames().back();
     const FrameOutlook picture{
-        .busy = state_.playback.playing || last.extracting || partial_.are_made() ||
-                (samples_.are_missing() && !samples_come_later()) || captures_.wanted() > 0 ||
-                last.comfort != interaction::ComfortState{},
+        .busy = state_.playback.playing || last.extracting || slices_.come() ||
+                partial_.are_made() || (samples_.are_missing() && !samples_come_later()) ||
+                captures_.wanted() > 0 || last.comfort != interaction::ComfortState{},
         .changed = contents_.changed() || last.uploaded != render::UploadCount{},
         .final =
             last.final && !last.retries && scene_.cells().is_complete() && !supply_.set_comes()};
@@ -438,7 +444,13 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     const DrawsOnly draws; // what is sent to the GPU may make it compile
     supply_.request(frame);
     supply_.take_newest(frame);
+    slices_.update(frame);
+    if (const auto& slices = slices_.shown(); !slices.empty())
+        picker_.set_slices(slices, arrays_.file()->array(slices.front()->query.array).info());
+    else
+        picker_.set_slices({}, {});
     show_messages(supply_.take_messages());
+    show_messages(slices_.take_messages());
     panel_.lay_out_room(state_, facts, report.time);
     Picture now = pictures_.make(frame, seen(rest, heads, report));
     choice_.choose(frame, now);
@@ -471,7 +483,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
         outputs_.take_screenshots(note());
     show_messages(outputs_.pictures().messages());
     show_messages(picker_.messages());
-    report.extracting |= supply_.extractor().busy();
+    report.extracting |= supply_.extractor().busy() || slices_.come();
     report.processor = processor_time() - worked;
     report.total = whole.lap();
     log_.add(report);

@@ -10,6 +10,7 @@
 #include "app/choice/cell_supply.h"
 #include "app/choice/partial_pictures.h"
 #include "app/choice/settled_samples.h"
+#include "app/choice/slice_supply.h"
 #include "app/cluster/frame_sharing.h"
 #include "app/cluster/frames_alone.h"
 #include "app/config/config.h"
@@ -219,6 +220,7 @@ class Session {
     History history_;
     FrameLog log_;
     CellSupply supply_;
+    SliceSupply slices_;
     PictureMaker pictures_;
     FramePlanner choice_;
     PartialPictures partial_;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace isochron::render {
 
@@ -43,6 +44,9 @@ struct NearFade {
     glm::vec3 between_eyes{0.0f}; ///< room
 };
 
+/// A plane and the faces of a box.
+inline constexpr std::size_t kMostCuts = 7;
+
 struct CellAppearance {
     std::array<SurfaceAppearance, index::kMostSurfaces> surfaces;
     std::optional<ValueColors> values; ///< instead of the surfaces' colors
@@ -65,9 +69,9 @@ struct CellAppearance {
     std::size_t mesh_level = 0;
     /// Surfaces that are drawn, one bit for each; quads and splats show all of them.
     std::uint32_t drawn = ~0u;
-    /// A plane in the room (normal, offset) above which everything is cut away: whole cells with
+    /// Planes in the room (normal, offset), at most kMostCuts, above any of which everything is cut away: whole cells with
     /// quads and splats, exactly at the plane with surfaces.
-    std::optional<glm::vec4> cut;
+    std::vector<glm::vec4> cuts;
     /// Splats blend in linear light; else in display values, which takes two thirds of the time on
     /// software GL. Opaque quads look the same either way.
     bool linear_light = true;

@@ -65,6 +65,9 @@ EyeBlock eye_block(const View& view, const Placement& placement, const CellAppea
     const glm::dmat4 clip(view.clip_from_eye);
     const double ahead_z = parallel ? 1.0 : clip[2][2] / clip[2][3];
     const glm::dvec4 ahead = index_from_pixel * glm::dvec4(0, 0, ahead_z, parallel ? 0.0 : 1.0);
+    std::array<glm::vec4, kMostCuts> cuts{};
+    for (std::size_t i = 0; i < appearance.cuts.size(); ++i)
+        cuts[i] = appearance.cuts[i] * glm::inverse(view.eye_from_room);
     return {
         .rows = glm::transpose(pixel_from_index),
         .ray_right = glm::vec4(index_from_pixel[0]),
@@ -83,13 +86,12 @@ EyeBlock eye_block(const View& view, const Placement& placement, const CellAppea
             appearance.near_fade
                 ? view.eye_from_room * glm::vec4(appearance.near_fade->between_eyes, 1.0f)
                 : glm::vec4(0.0f),
-        .cut = appearance.cut ? *appearance.cut * glm::inverse(view.eye_from_room)
-                              : glm::vec4(0.0f, 0.0f, 0.0f, -1.0f),
+        .cuts = cuts,
     };
 }
 
 bool hides_what_is_behind(const CellAppearance& look, const Placement& placement) {
-    if (look.cut || std::ranges::any_of(look.surfaces, is_translucent))
+    if (!look.cuts.empty() || std::ranges::any_of(look.surfaces, is_translucent))
         return false;
     if (!look.near_fade)
         return true;
@@ -123,6 +125,7 @@ FrameBlock frame_of(const CellAppearance& look, const FootprintShapes& shapes, F
         .mixed_levels = mixed_levels,
         .color_bands = look.values && look.values->bands,
         .corners_by_slot = true,
+        .cut_count = static_cast<std::int32_t>(look.cuts.size()),
         .padding = {},
         .index_from_normal = {},
         .surroundings = glm::vec4(glm::vec3(around.per_voxel()),

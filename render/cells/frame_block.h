@@ -31,7 +31,7 @@ struct EyeBlock {
     glm::vec4 key_light;
     glm::vec4 up;
     glm::vec4 between_eyes;
-    glm::vec4 cut;
+    std::array<glm::vec4, kMostCuts> cuts;
 };
 /// The uniform block `Frame` of frame.glsl, in std140 layout.
 struct FrameBlock {
@@ -54,13 +54,14 @@ struct FrameBlock {
     std::int32_t mixed_levels;
     std::int32_t color_bands;
     std::int32_t corners_by_slot;
-    std::array<std::int32_t, 2> padding;
+    std::int32_t cut_count;
+    std::int32_t padding;
     std::array<glm::vec4, 3> index_from_normal; ///< rows
     glm::vec4 surroundings;                     ///< see frame.glsl
     glm::vec4 surroundings_size;
     glm::vec4 extent;
 };
-static_assert(sizeof(FrameBlock) == 2 * (3 * 64 + 11 * 16) + (index::kMostSurfaces + 14) * 16);
+static_assert(sizeof(FrameBlock) == 2 * (3 * 64 + 17 * 16) + (index::kMostSurfaces + 14) * 16);
 static_assert(sizeof(FrameBlock) <= kUniformBlockBytes);
 
 EyeBlock eye_block(const View& view, const Placement& placement, const CellAppearance& appearance);

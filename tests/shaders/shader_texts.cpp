@@ -16,6 +16,7 @@
 #include "render/passes/picture_pass.h"
 #include "render/passes/reproject_pass.h"
 #include "render/passes/sample_sum.h"
+#include "render/passes/slice_pass.h"
 #include "render/passes/solid_pass.h"
 #include "render/passes/text_pass.h"
 #include "render/passes/veil_pass.h"
@@ -142,6 +143,7 @@ void make_all_passes(const Gl& gl) {
     const render::LinePass lines(gl);
     const render::PanelPass panels(gl);
     const render::PicturePass pictures(gl);
+    const render::SlicePass slices(gl, even), uneven_slices(gl, uneven);
     const render::SolidPass solids(gl);
     const render::TextPass text(
         gl, render::GlyphAtlas{.size = {1, 1}, .coverage = {0}, .halo = {}, .glyphs = {}});

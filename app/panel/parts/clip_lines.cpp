@@ -3,17 +3,16 @@
 
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/icons.h"
+#include "app/panel/parts/plane_fields.h"
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/theme.h"
+#include "interaction/tools/clip_box.h"
 #include "interaction/tools/clip_tool.h"
 
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 #include <imgui.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 namespace isochron::app {
@@ -22,60 +21,31 @@ namespace {
 using interaction::ClipPlane;
 using interaction::Commands;
 
-/// The plane's normal or its opposite: the one whose largest part is positive, so that places along
-/// it are coordinates where the plane lies across an axis.
-glm::dvec3 upwards(const glm::dvec3& normal) {
-    const glm::dvec3 size = glm::abs(normal);
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    return normal[axis] < 0 ? -normal : normal;
-}
-
-/// The lowest and highest place of the data's box along a direction.
-std::array<double, 2> span_along(const glm::dvec3& way, const interaction::DataFrame& data) {
-    std::array<double, 2> span{glm::dot(data.at({0, 0, 0}), way),
-                               glm::dot(data.at({0, 0, 0}), way)};
-    for (int corner = 1; corner < 8; ++corner) {
-        const double place = glm::dot(data.at({corner & 1, corner >> 1 & 1, corner >> 2 & 1}), way);
-        span = {std::min(span[0], place), std::max(span[1], place)};
-    }
-    return span;
-}
-
-void place_field(const PanelModel& model, ClipPlane& plane) {
-    const glm::dvec3 way = upwards(plane.normal);
-    const auto [low, high] = span_along(way, model.data);
-    const double before = glm::dot(plane.point, way);
-    double place = before;
-    ImGui::SetNextItemWidth(110.0f);
-    if (number_field("##place", place, {.low = low, .high = high},
-                     format_with(model.info.length_unit).c_str()))
-        plane.point += (place - before) * way;
-    tip("where the plane lies along its normal: drag, or click and type");
-}
-
-/// The three parts of the normal. What the user types stands there as it was typed, although the
-/// plane has the normal of length 1 in that direction.
-void normal_fields(ClipPlane& plane) {
-    ImGuiStorage& kept = *ImGui::GetStateStorage();
-    constexpr std::array<const char*, 3> kIds{"##nx", "##ny", "##nz"};
-    glm::dvec3 typed;
-    for (int axis = 0; axis < 3; ++axis)
-        typed[axis] = static_cast<double>(
-            kept.GetFloat(ImGui::GetID(kIds[static_cast<std::size_t>(axis)]), 0.0f));
-    const bool same =
-        glm::length(typed) > 0 && glm::distance(glm::normalize(typed), plane.normal) < 1e-5;
-    if (!same)
-        typed = plane.normal;
+/// The box's ends along each axis, as indices of vertices, while it is shown.
+void box_fields(const PanelModel& model, Commands& commands) {
+    constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+    interaction::ClipBox box = model.asked.clip_box;
+    if (!box.shown)
+        return;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(color_of(Ink::dim), "box");
     for (int axis = 0; axis < 3; ++axis) {
-        const char* const id = kIds[static_cast<std::size_t>(axis)];
+        ImGui::PushID(axis);
         ImGui::SameLine();
-        ImGui::SetNextItemWidth(48.0f);
-        if (number_field(id, typed[axis], {.low = -1, .high = 1, .bounded = false}, "%.3g") &&
-            std::isfinite(typed[axis]) && glm::length(typed) > 1e-6)
-            plane.normal = glm::normalize(typed);
-        tip("the plane's normal: it points to the side that is cut away");
-        kept.SetFloat(ImGui::GetID(id), static_cast<float>(typed[axis]));
+        ImGui::TextColored(color_of(Ink::dim), "%s", kAxes[static_cast<std::size_t>(axis)]);
+        const FieldRange range{.low = 0, .high = model.data.cells[axis]};
+        for (const bool high : {false, true}) {
+            double& end = high ? box.high[axis] : box.low[axis];
+            ImGui::SameLine(0.0f, 4.0f);
+            ImGui::SetNextItemWidth(54.0f);
+            number_field(high ? "##high" : "##low", end, range, "%.4g");
+            tip("an end of the box, as the index of a vertex (--crop of commands counts so): drag, "
+                "or click and type");
+        }
+        ImGui::PopID();
     }
+    if (box != model.asked.clip_box && glm::all(glm::lessThan(box.low, box.high)))
+        commands.clip_box = box;
 }
 
 } // namespace
@@ -93,8 +63,15 @@ void clip_lines(const PanelModel& model, Commands& commands) {
             "cut away (Ctrl + 7)");
         ImGui::PopID();
     }
-    if (!model.asked.clip.shown)
+    ImGui::SameLine();
+    bool boxed = model.asked.clip_box.shown;
+    if (tick_field("##box", boxed, "box"))
+        commands.clip_box = boxed ? interaction::whole_box(model.data) : interaction::ClipBox{};
+    tip("a box along the data's axes outside which all is cut away: drag its faces");
+    if (!model.asked.clip.shown) {
+        box_fields(model, commands);
         return;
+    }
     const float side = ImGui::GetFrameHeight();
     ImGui::SameLine();
     if (icon_button("flip", Icon::flip, "cut away the other side (Ctrl + 7)", false, side))
@@ -102,16 +79,12 @@ void clip_lines(const PanelModel& model, Commands& commands) {
     ImGui::SameLine();
     if (icon_button("no clip", Icon::remove, "remove the clip plane (Delete)", false, side))
         commands.clip = ClipPlane{};
-    ClipPlane plane = model.asked.clip;
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(color_of(Ink::dim), "at");
-    ImGui::SameLine();
-    place_field(model, plane);
-    ImGui::SameLine();
-    ImGui::TextColored(color_of(Ink::dim), "normal");
-    normal_fields(plane);
-    if (plane != model.asked.clip)
-        commands.clip = plane;
+    const ClipPlane& now = model.asked.clip;
+    interaction::Plane plane{now.point, now.normal};
+    plane_fields(model, plane, "the plane's normal: it points to the side that is cut away");
+    if (plane != interaction::Plane{now.point, now.normal})
+        commands.clip = {true, plane.point, plane.normal};
+    box_fields(model, commands);
 }
 
 } // namespace isochron::app

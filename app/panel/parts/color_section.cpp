@@ -104,7 +104,8 @@ bool two_numbers(const char* label, std::array<double, 2>& ends, const FieldRang
     return changed && ends[0] < ends[1];
 }
 
-void range_rows(const PanelModel& model, Coloring& coloring) {
+/// @param shown the range of the scale @param values whose percentiles there are
+void range_rows(const std::array<double, 2>& shown, const char* values, Coloring& coloring) {
     static const std::array<std::string, 3> kWays{"of all values", "percentiles", "set by hand"};
     const std::size_t way = coloring.range ? 2 : coloring.percentiles ? 1 : 0;
     row("range");
@@ -115,19 +116,17 @@ void range_rows(const PanelModel& model, Coloring& coloring) {
         if (*chosen == 1)
             coloring.percentiles = {2.0, 98.0};
         else if (*chosen == 2)
-            coloring.range = model.colors.range;
+            coloring.range = shown;
     }
     if (coloring.range) {
         std::array<double, 2> ends = *coloring.range;
-        if (two_numbers(
-                "from, to", ends,
-                {.low = model.colors.range[0], .high = model.colors.range[1], .bounded = false},
-                "lowest and highest value of the range"))
+        if (two_numbers("from, to", ends, {.low = shown[0], .high = shown[1], .bounded = false},
+                        "lowest and highest value of the range"))
             coloring.range = ends;
     } else if (coloring.percentiles) {
         std::array<double, 2> ends = *coloring.percentiles;
         if (two_numbers("percent", ends, {.low = 0, .high = 100},
-                        "lowest and highest percentile of the values on the shown surfaces"))
+                        fmt::format("lowest and highest percentile of {}", values).c_str()))
             coloring.percentiles = ends;
     }
 }
@@ -188,6 +187,28 @@ void what_rows(const PanelModel& model, Coloring& coloring) {
     coloring.array = arrays[*array];
 }
 
+/// How the values on slices are shown.
+void slice_rows(const PanelModel& model, Commands& commands) {
+    Coloring coloring = model.asked.slices.coloring;
+    ImGui::PushID("slices");
+    row("slices of");
+    const std::vector<std::string> arrays(model.arrays.names.begin(), model.arrays.names.end());
+    const auto chosen = choice_field("##array", arrays[model.colors.sliced], arrays,
+                                     "array whose values the slices show");
+    if (chosen && *chosen != model.colors.sliced) {
+        coloring.array = arrays[*chosen];
+        coloring.range.reset();
+    }
+    map_row(model, coloring);
+    range_rows(model.colors.slices, "all values of the array", coloring);
+    use_rows(coloring);
+    ImGui::PopID();
+    if (coloring == model.asked.slices.coloring)
+        return;
+    commands.slices = model.asked.slices;
+    commands.slices->coloring = coloring;
+}
+
 } // namespace
 
 std::vector<OfferedMap> offered_maps(const PanelModel& model) {
@@ -206,11 +227,13 @@ void color_section(const PanelModel& model, Commands& commands) {
     what_rows(model, coloring);
     if (coloring.by != interaction::ColorBy::surface) {
         map_row(model, coloring);
-        range_rows(model, coloring);
+        range_rows(model.colors.range, "the values on the shown surfaces", coloring);
         use_rows(coloring);
     }
     if (coloring != model.asked.coloring)
         commands.coloring = coloring;
+    if (model.asked.slices.shown())
+        slice_rows(model, commands);
 }
 
 } // namespace isochron::app

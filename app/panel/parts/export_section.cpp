@@ -65,7 +65,7 @@ void export_rows(const PanelModel& model, Commands& commands) {
     interaction::WrittenPictures pictures = model.asked.pictures;
     steps_row(model, pictures.surfaces);
     format_row(pictures.surfaces);
-    if (model.asked.clip.shown) {
+    if (model.asked.clip.shown || model.asked.clip_box.shown) {
         row("clip plane");
         tick_field("##clip", pictures.surfaces.clipped, "cuts them, too");
         tip("leave out the triangles that the clip plane cuts away");

@@ -5,6 +5,7 @@
 #include "app/scene/mark.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/tools/clip_tool.h"
+#include "interaction/tools/slice_tool.h"
 
 #include <imgui.h>
 
@@ -36,7 +37,14 @@ bool place_menu(const PanelModel& model, const std::optional<interaction::Pointe
         commands.clip = interaction::laid_through(point.position, room,
                                                   transform(room, point.position) -
                                                       glm::dvec3(model.head.position));
-    if (ImGui::MenuItem("isovalue here", nullptr, false, place.has_value()))
+    if (ImGui::MenuItem("slice here", nullptr, false, place.has_value())) {
+        interaction::Slices slices = model.asked.slices;
+        if (slices.picked >= slices.planes.size())
+            slices = with_slice(slices, model.data);
+        slices.planes[slices.picked].point = point.position;
+        commands.slices = slices;
+    }
+    if (ImGui::MenuItem("isovalue here", nullptr, false, place.has_value() && point.array.empty()))
         commands.isovalue = point.value;
     ImGui::Separator();
     const bool all = ImGui::MenuItem("show all", "C");

@@ -6,10 +6,11 @@
 #include "app/panel/parts/clip_lines.h"
 #include "app/panel/parts/export_section.h"
 #include "app/panel/parts/icons.h"
+#include "app/panel/parts/mark_lines.h"
 #include "app/panel/parts/rows.h"
+#include "app/panel/parts/slice_lines.h"
 #include "app/panel/parts/theme.h"
 #include "app/panel/parts/written_pictures.h"
-#include "app/scene/mark.h"
 #include "interaction/tools/tool_table.h"
 
 #include <fmt/format.h>
@@ -175,32 +176,6 @@ void made_line(const interaction::ToolRow& tool, const PanelModel& model, Comman
         tool.remove(commands);
 }
 
-/// The place that the user picked, as much of it as there is room for.
-void mark_line(const PanelModel& model, float width, Commands& commands) {
-    const interaction::MarkedPoint& point = *model.asked.mark.point;
-    constexpr const char* kHere = "isovalue here";
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float buttons = ImGui::CalcTextSize(kHere).x + 2 * style.FramePadding.x +
-                          ImGui::GetFrameHeight() + 2 * style.ItemSpacing.x;
-    const auto fits = [&](const std::string& words) {
-        return ImGui::CalcTextSize(words.c_str()).x + buttons <= width;
-    };
-    ImGui::AlignTextToFramePadding();
-    const std::string all = mark_text(point, model.info),
-                      words = mark_text(point, model.info, fits);
-    text(words);
-    if (words != all)
-        tip(all.c_str());
-    ImGui::SameLine();
-    if (ImGui::Button(kHere))
-        commands.isovalue = point.value;
-    tip("set the isovalue to the value at the mark");
-    ImGui::SameLine();
-    if (icon_button("no mark", Icon::remove, "remove the mark (Delete)", false,
-                    ImGui::GetFrameHeight()))
-        commands.mark = interaction::Mark{};
-}
-
 /// Whether the strip shows a tool: what it has made is there, or a tool with a line is held.
 bool has_line(const interaction::ToolRow& tool, const PanelModel& model) {
     const interaction::Tools& tools = model.asked.tools;
@@ -212,9 +187,10 @@ bool has_line(const interaction::ToolRow& tool, const PanelModel& model) {
 } // namespace
 
 bool has_tool_strip(const PanelModel& model) {
-    return std::ranges::any_of(interaction::tool_table(), [&](const interaction::ToolRow& tool) {
-        return has_line(tool, model);
-    });
+    return has_marks(model) ||
+           std::ranges::any_of(interaction::tool_table(), [&](const interaction::ToolRow& tool) {
+               return has_line(tool, model);
+           });
 }
 
 void tool_strip(const PanelModel& model, float width, Commands& commands) {
@@ -223,11 +199,13 @@ void tool_strip(const PanelModel& model, float width, Commands& commands) {
             continue;
         if (tool.kind == ToolKind::clip)
             clip_lines(model, commands);
+        else if (tool.kind == ToolKind::slice)
+            slice_lines(model, commands);
         else if (tool.line)
             made_line(tool, model, commands);
     }
-    if (model.asked.mark.point)
-        mark_line(model, width, commands);
+    if (has_marks(model))
+        mark_lines(model, width, commands);
 }
 
 } // namespace isochron::app

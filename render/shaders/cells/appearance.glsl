@@ -7,18 +7,13 @@
 
 const uint kNoValue = 8191u;
 
+#include "color_map.glsl"
+
 layout(binding = 7) uniform sampler1D color_map; // linear light
 
 // The color of a value. @param share its place in the range of all values, 0 to 1
 vec3 mapped_color(float share) {
-    float at = clamp(color_range.x * share + color_range.y, 0.0, 1.0);
-    if (color_ratio > 0.0)
-        at = log2(1.0 + at * (color_ratio - 1.0)) / log2(color_ratio);
-    float size = float(textureSize(color_map, 0));
-    float texel = at * (size - 1.0);
-    if (color_bands)
-        texel = floor(texel + 0.5);
-    return textureLod(color_map, (texel + 0.5) / size, 0.0).rgb;
+    return color_on(color_map, color_range.x * share + color_range.y, color_ratio, color_bands);
 }
 
 vec3 base_color(uint style) {
@@ -52,11 +47,13 @@ uint hash_of(uvec3 cell) {
 // @return uniformly distributed in [0, 1)
 float evenly(uint hash) { return float(hash >> 8) / 16777216.0; }
 
-// The share that remains, 0 to 1, near the viewer (fading) and beyond the cutting plane (0).
+// The share that remains, 0 to 1, near the viewer (fading) and beyond a cutting plane (0).
 // @param at eye space
 float near_share(vec3 at) {
-    float whole = dot(EYE(cut), vec4(at, 1.0)) > 0.0 ? 0.0 : 1.0;
-    return whole * clamp((distance(at, EYE(between_eyes).xyz) - near_fade.x) * near_fade.y, 0.0, 1.0);
+    for (int i = 0; i < cut_count; ++i)
+        if (dot(EYE(cuts[i]), vec4(at, 1.0)) > 0.0)
+            return 0.0;
+    return clamp((distance(at, EYE(between_eyes).xyz) - near_fade.x) * near_fade.y, 0.0, 1.0);
 }
 
 // Opaque surfaces fade by leaving out a share of their grains, which are much smaller than cells.

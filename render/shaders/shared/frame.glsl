@@ -1,6 +1,8 @@
 // The uniforms for drawing cells: the eyes, and how surfaces look. In one pass, two eyes are drawn
 // as two instances, each in its own viewport; EYE(field) is the field of the current eye.
 
+const int MOST_CUTS = 7; // as kMostCuts
+
 struct Eye {
     // Rows of pixel_from_index: clip space with x and y in pixels from the middle of the viewport.
     vec4 row_x, row_y, row_z, row_w;
@@ -17,7 +19,7 @@ struct Eye {
     vec4 key_light;         // direction towards it, eye space
     vec4 up;                // up in the room, eye space
     vec4 between_eyes;      // middle between the viewer's eyes, eye space: both see the same fading
-    vec4 cut;               // plane in eye space above which everything is cut away
+    vec4 cuts[MOST_CUTS];   // planes in eye space above which everything is cut away
 };
 
 layout(std140, binding = 0) uniform Frame {
@@ -40,6 +42,7 @@ layout(std140, binding = 0) uniform Frame {
     bool mixed_levels;  // cells are of several levels of detail: see cell_box.glsl
     bool color_bands;   // the map has bands, whose colors do not flow into each other
     bool corners_by_slot; // surface.vert: corners are there for all slots, else for the cells drawn
+    int cut_count;
     vec4 index_from_normal[3]; // rows: planes' normals from physical to index space
     vec4 surroundings;      // places of the field of surroundings per voxel; w: how much they darken
     vec4 surroundings_size; // its places along x, y and z of a surface

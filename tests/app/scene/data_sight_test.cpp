@@ -77,14 +77,14 @@ TEST(DataSight, AllIsCutAwayWhereNoVisibleCellReachesTheSideThatStays) {
     const index::Grid grid = cube();
     const index::Extraction cells = with_cells({333, 444}); // cells 3 3 3 and 4 4 4
     interaction::ClipPlane clip{.shown = true, .point = {5.5, 0, 0}, .normal = {-1, 0, 0}};
-    EXPECT_TRUE(is_cut_away(cells, grid, 0b10, clip));
+    EXPECT_TRUE(is_cut_away(cells, grid, 0b10, {&clip, 1}));
     clip.point.x = 4.5;
-    EXPECT_FALSE(is_cut_away(cells, grid, 0b10, clip)) << "a part of a cell stays";
+    EXPECT_FALSE(is_cut_away(cells, grid, 0b10, {&clip, 1})) << "a part of a cell stays";
     clip.point.x = 5.5;
     clip.shown = false;
-    EXPECT_FALSE(is_cut_away(cells, grid, 0b10, clip));
+    EXPECT_FALSE(is_cut_away(cells, grid, 0b10, {&clip, 1}));
     clip = {.shown = true, .point = {0, 0, -1}, .normal = {0, 0, 1}};
-    EXPECT_TRUE(is_cut_away(cells, grid, 0b10, clip)) << "the whole box";
+    EXPECT_TRUE(is_cut_away(cells, grid, 0b10, {&clip, 1})) << "the whole box";
 }
 
 } // namespace

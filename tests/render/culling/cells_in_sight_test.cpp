@@ -132,7 +132,7 @@ TEST_P(CellsInSightTest, WhatIsCutAwayNearTheEyeHidesNothing) {
     const CellBuffers cells = cells_of(noise_.view(), 0.01);
     const View view = perspective_view({0.9f, 0.7f, 1.6f});
     CellAppearance look;
-    look.cut = glm::vec4(0.0f, 0.0f, 1.0f, -0.2f); // all beyond z = 0.2
+    look.cuts = {glm::vec4(0.0f, 0.0f, 1.0f, -0.2f)}; // all beyond z = 0.2
     const auto picture = drawn(all_, std::span(&view, 1), placement_, cells, kWhole, look);
     EXPECT_TRUE(drawn(seen_, std::span(&view, 1), placement_, cells, kWhole, look) == picture);
     EXPECT_FALSE(drawn(seen_, std::span(&view, 1), placement_, cells, kWhole) == picture);

@@ -218,7 +218,7 @@ TEST_P(MeshPassTest, InnerSurfacesShowThroughTranslucentOnes) {
 TEST_P(MeshPassTest, WhatIsCutAwayIsThatOfTheExactSurface) {
     const auto set = extraction({90.5});
     CellAppearance look;
-    look.cut = glm::vec4(1, 0, 0, -16.3f);
+    look.cuts = {glm::vec4(1, 0, 0, -16.3f)};
     const Image mesh = draw(set, Footprint::mesh, look);
     EXPECT_GT(differing(mesh, draw(set, Footprint::mesh, {})), 0.02);
     EXPECT_LT(differing(mesh, draw(set, Footprint::surface, look)), 0.01);
@@ -267,7 +267,7 @@ TEST_P(MeshPassTest, LightIsThatOfEachPixelFoundInFull) {
         angle_ = one.angle;
         const glm::vec3 eye = glm::vec3(15) + one.away * glm::vec3(25, 20, 45);
         const Image fast = draw(set, Footprint::mesh, look, eye);
-        look.cut = glm::vec4(1, 0, 0, -1000); // nothing
+        look.cuts = {glm::vec4(1, 0, 0, -1000)}; // nothing
         const Image full = draw(set, Footprint::mesh, look, eye);
         int most = 0;
         for (std::size_t i = 0; i < full.rgba.size(); ++i)

@@ -19,8 +19,8 @@ class LegendTest : public render::GlTest {
     Legend of_temperature() const {
         return {.surfaces = {},
                 .value_unit = "K",
-                .scale = ColorScale{
-                    .title = "temperature [K]", .range = {280, 320}, .whole = {250, 400}}};
+                .scales = {ColorScale{
+                    .title = "temperature [K]", .range = {280, 320}, .whole = {250, 400}}}};
     }
     render::TextPass text_{gl_, room_font};
 };

@@ -142,7 +142,7 @@ TEST(SliceValues, AreTrilinearForEveryTypeGridPlaneAndInstant) {
         stored.grid = grid;
         if (!floats)
             stored.scaling = {-0.25, 7};
-        const test_support::TestFolder folder("slice");
+        const test_support::TestFolder folder;
         const auto file = indexed(folder, stored);
         for (int each = 0; each < 4; ++each) {
             SliceQuery plane{.instant = each < 2 ? Instant(1) : Instant(0, 20000)};
@@ -189,7 +189,7 @@ TEST(SliceValues, AreTrilinearForEveryTypeGridPlaneAndInstant) {
 TEST(SliceValues, ThatMissTheDataAreEmpty) {
     const TestField field({5, 5, 5}, 1, ValueType::f32,
                           [](double x, double, double, double) { return x; });
-    const test_support::TestFolder folder("slice");
+    const test_support::TestFolder folder;
     const auto file = indexed(folder, field.view());
     const SliceValues slice = slice_values(*file, {.point = {0, 0, 4.01}, .normal = {0, 0, 1}});
     EXPECT_TRUE(slice.outline.empty() && slice.shares.empty());
@@ -200,7 +200,7 @@ TEST(SliceValues, OfALargeStepReadOnlyTheChunksThatThePlaneCuts) {
     Random random(test_seed());
     const TestField field({192, 160, 160}, 1, ValueType::f32,
                           [&](double, double, double, double) { return uniform_in(random, 0, 1); });
-    const test_support::TestFolder folder("slice");
+    const test_support::TestFolder folder;
     indexed(folder, field.view());
     const auto file = IndexFile::open(folder.path() / "a.isochron", 64 << 20);
     const std::uint64_t whole = std::uint64_t{192} * 160 * 160 * 4, before = file->reading().bytes;

@@ -32,7 +32,7 @@ class SlicePassTest : public GlTest {
             [&](double x, double y, double z, double) { return value(x, y, z); });
         index::StepValues values = field.view();
         values.grid = grid;
-        const test_support::TestFolder folder("slices");
+        const test_support::TestFolder folder;
         const auto file = indexed(folder, values);
         slice_ = std::make_shared<index::SliceValues>(index::slice_values(*file, plane));
         const glm::vec3 at(plane.point), normal(plane.normal);

@@ -532,10 +532,14 @@ class LinkSource final : public RemoteSource {
         if (!same)
             return false;
         auto now = std::make_shared<Content>(name_, transport_, keep_);
-        now->open();
-        if (now->size() < size_ ||
-            !same(std::make_unique<LinkSource>(now, transport_, keep_, false)))
+        try {
+            now->open();
+            if (now->size() < size_ ||
+                !same(std::make_unique<LinkSource>(now, transport_, keep_, false)))
+                return false;
+        } catch (const Error&) { // what lies there now is no such file
             return false;
+        }
         {
             const std::lock_guard lock(mutex_);
             content_ = std::move(now);

@@ -75,7 +75,9 @@ bool is_index_name(const std::vector<std::string>& files) {
 ExploreOptions with_index(ExploreOptions options) {
     options.sources = with_path_within(std::move(options.sources));
     set_up_readers(options.sources);
-    const std::vector<std::string>& files = options.sources.files;
+    std::vector<std::string>& files = options.sources.files;
+    for (std::string& file : files)
+        file = index::address_of(file);
     if (files.empty() || options.test_pattern)
         return options;
     options.data_name = files.front();

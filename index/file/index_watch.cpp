@@ -54,7 +54,11 @@ std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const 
 
 std::shared_ptr<const IndexFile> GrowthLook::look(const IndexFile& known) {
     if (const auto* const remote = dynamic_cast<const RemoteSource*>(&known.bytes()))
-        return remote->may_have_changed() ? grown(path_, known) : nullptr;
+        try {
+            return remote->may_have_changed() ? grown(path_, known) : nullptr;
+        } catch (const std::exception&) { // the server cannot be reached, or the process ends
+            return nullptr;
+        }
     try {
         const FileState state = asked_state(path_);
         if (state == looked_at_)

@@ -39,7 +39,7 @@ const clipAxis = part<HTMLSelectElement>("clip-axis");
 const clipShare = part<HTMLInputElement>("clip-share");
 map.replaceChildren(...MAP_NAMES.map((name) => new Option(name, name)));
 
-const scene = new Scene(part<HTMLCanvasElement>("picture"));
+const scene = new Scene(part<HTMLCanvasElement>("picture"), part("ticks"));
 const histogram = new Histogram(part<HTMLCanvasElement>("histogram"));
 const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
 const say = (words: ToWorker) => worker.postMessage(words);
@@ -279,7 +279,7 @@ add.addEventListener("click", () => {
   // In the middle of the widest gap between the surfaces and the ends of the values.
   const { low, high } = info();
   const places = [low, ...surfaces.map((each) => each.isovalue).filter((value) => value > low && value < high), high].sort((a, b) => a - b);
-  const widest = places.slice(1).reduce((best, place, i) => (place - places[i]! > best[1] - best[0] ? [places[i]!, place] : best), [0, 0] as [number, number]);
+  const widest = places.slice(1).reduce<[number, number]>((best, place, i) => (place - places[i]! > best[1] - best[0] ? [places[i]!, place] : best), [0, 0]);
   const color = COLORS.find((each) => surfaces.every((other) => other.color !== each)) ?? COLORS[0]!;
   surfaces = [...surfaces, { isovalue: (widest[0] + widest[1]) / 2, color, opacity: 1 }];
   picked = surfaces.length - 1;

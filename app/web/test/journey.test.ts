@@ -158,6 +158,18 @@ test("shows the steps that are appended, at the last step", async () => {
   await page.close();
 });
 
+test("numbers the box, and says how long things are", async () => {
+  const page = await open("#isovalue=12.5");
+  await exact(page);
+  const ticks = await page.$$eval("#ticks span:not([hidden])", (spans) => spans.map((span) => span.textContent));
+  expect(ticks).toContain("x");
+  expect(ticks).toContain("20");
+  const [words, width] = await page.$eval("#scale", (bar) => [bar.textContent, bar.getBoundingClientRect().width] as const);
+  expect(Number(words)).toBeGreaterThan(0);
+  expect(width).toBeGreaterThan(50);
+  await page.close();
+});
+
 test("a link holds settings alone", async () => {
   const page = await open("#file=../../etc/passwd&isovalue=12.5&color=javascript:alert(1)");
   expect(await exact(page)).toBe(cells(0, 12.5));

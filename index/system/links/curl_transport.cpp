@@ -13,6 +13,8 @@
 #include <string_view>
 #include <thread>
 
+#include <unistd.h>
+
 namespace isochron::index {
 namespace {
 
@@ -95,6 +97,8 @@ class CurlTransport final : public HttpTransport {
     }
 
     void send(HttpRequest request, std::function<void(HttpAnswer)> done) override {
+        if (::getpid() != owner_)
+            return done({.failure = "it was opened before this process was forked: open it again"});
         const Clock::time_point begins = Clock::now() + request.after;
         {
             const std::lock_guard lock(mutex_);
@@ -219,6 +223,7 @@ class CurlTransport final : public HttpTransport {
         done(std::move(given));
     }
 
+    const pid_t owner_ = ::getpid();
     CURLM* multi_ = nullptr;
     std::mutex mutex_;
     std::list<Asked> fresh_; ///< guarded by the mutex
@@ -226,9 +231,25 @@ class CurlTransport final : public HttpTransport {
     std::jthread thread_;
 };
 
+/// A forked process has none of its parent's threads: it makes a transport of its own.
+struct TransportOfProcess {
+    std::mutex mutex;
+    pid_t owner = 0;
+    std::shared_ptr<HttpTransport>* transport = nullptr; ///< another process's is left alone
+    ~TransportOfProcess() {
+        if (owner == ::getpid())
+            delete transport;
+    }
+};
+
 std::shared_ptr<HttpTransport> curl_transport() {
-    static const std::shared_ptr<HttpTransport> transport = std::make_shared<CurlTransport>();
-    return transport;
+    static TransportOfProcess of;
+    const std::lock_guard lock(of.mutex);
+    if (of.owner != ::getpid()) {
+        of.transport = new std::shared_ptr<HttpTransport>(std::make_shared<CurlTransport>());
+        of.owner = ::getpid();
+    }
+    return *of.transport;
 }
 
 } // namespace

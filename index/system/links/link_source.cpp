@@ -168,6 +168,7 @@ class Content : public std::enable_shared_from_this<Content> {
         for (const auto& [block, awaited] : wanted_)
             awaited->ended = awaited->changed = true;
         wanted_.clear();
+        urgent_.clear();
         came_.notify_all();
     }
 
@@ -300,7 +301,11 @@ class Content : public std::enable_shared_from_this<Content> {
     /// The blocks to ask for next, the first of those that somebody waits for before others.
     Sent take_wanted() {
         const bool together = several_.value_or(!trying_);
-        auto at = urgent_.empty() ? wanted_.begin() : wanted_.find(*urgent_.begin());
+        auto at = urgent_.empty() ? wanted_.end() : wanted_.find(*urgent_.begin());
+        if (at == wanted_.end()) {
+            urgent_.clear();
+            at = wanted_.begin();
+        }
         Sent sent;
         std::uint64_t bytes = 0;
         while (at != wanted_.end() && bytes < kTogether) {
@@ -418,10 +423,10 @@ class Content : public std::enable_shared_from_this<Content> {
         const std::lock_guard lock(mutex_);
         several_ = false;
         for (const std::uint64_t block : blocks_of(sent))
-            if (auto found = asked_.extract(block))
+            if (auto found = asked_.extract(block)) {
                 wanted_.emplace(block, found.mapped());
-        for (const std::uint64_t block : blocks_of(sent))
-            urgent_.insert(block);
+                urgent_.insert(block);
+            }
         --under_way_;
         pump();
     }
@@ -532,10 +537,14 @@ class LinkSource final : public RemoteSource {
         if (!same)
             return false;
         auto now = std::make_shared<Content>(name_, transport_, keep_);
-        now->open();
-        if (now->size() < size_ ||
-            !same(std::make_unique<LinkSource>(now, transport_, keep_, false)))
+        try {
+            now->open();
+            if (now->size() < size_ ||
+                !same(std::make_unique<LinkSource>(now, transport_, keep_, false)))
+                return false;
+        } catch (const Error&) { // what lies there now is no such file
             return false;
+        }
         {
             const std::lock_guard lock(mutex_);
             content_ = std::move(now);

@@ -4,6 +4,7 @@
 
 #include <arpa/inet.h>
 #include <csignal>
+#include <fstream>
 #include <netinet/in.h>
 #include <regex>
 #include <sys/socket.h>
@@ -39,34 +40,62 @@ class ServeCommand : public CommandLine {
     ServeCommand() { EXPECT_EQ(isochron(build_of("t*.raw")).status, 0); }
 };
 
-TEST_F(ServeCommand, SendsRangesToWhoeverHasTheLinkUntilItIsEnded) {
-    int said[2];
-    ASSERT_EQ(pipe(said), 0);
-    const pid_t server = fork();
-    ASSERT_GE(server, 0);
-    if (server == 0) {
-        dup2(said[1], STDOUT_FILENO);
+/// A server that runs until it is ended.
+class Serving {
+  public:
+    /// @param option empty: none
+    explicit Serving(const fs::path& file, const char* option = nullptr) {
+        int said[2];
+        EXPECT_EQ(pipe(said), 0);
+        process_ = fork();
+        if (process_ == 0) {
+            dup2(said[1], STDOUT_FILENO);
+            close(said[0]);
+            const std::string program = test_support::binary_root() + "/isochron";
+            execl(program.c_str(), program.c_str(), "serve", file.c_str(), option, nullptr);
+            _exit(127);
+        }
+        close(said[1]);
+        for (char c; read(said[0], &c, 1) == 1 && c != '\n';)
+            link += c;
         close(said[0]);
-        const std::string program = test_support::binary_root() + "/isochron";
-        const std::string file = (folder.path() / "a.isochron").string();
-        execl(program.c_str(), program.c_str(), "serve", file.c_str(), nullptr);
-        _exit(127);
+        std::smatch parts;
+        EXPECT_TRUE(std::regex_match(
+            link, parts, std::regex(R"(http://127\.0\.0\.1:(\d+)/#token=([0-9a-f]{32}))")))
+            << link;
+        port = std::atoi(parts[1].str().c_str());
+        token = fmt::format("Authorization: Bearer {}\r\n", parts[2].str());
     }
-    close(said[1]);
-    std::string link;
-    for (char c; read(said[0], &c, 1) == 1 && c != '\n';)
-        link += c;
-    std::smatch parts;
-    ASSERT_TRUE(std::regex_match(link, parts,
-                                 std::regex(R"(http://127\.0\.0\.1:(\d+)/#token=([0-9a-f]{32}))")))
-        << link;
-    const int port = std::stoi(parts[1]);
-    const auto get = [&](const std::string& path, const std::string& more) {
+    ~Serving() { end(); }
+    /// @return whether it ended by itself when it was asked to
+    bool end() {
+        if (process_ <= 0)
+            return true;
+        kill(process_, SIGTERM);
+        int status = 0;
+        const pid_t ended = waitpid(std::exchange(process_, 0), &status, 0);
+        return ended > 0 && WIFEXITED(status);
+    }
+    std::string get(const std::string& path, const std::string& more) const {
         return asked(port, fmt::format("GET {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: "
                                        "close\r\n{}\r\n",
                                        path, port, more));
+    }
+
+    std::string link, token;
+    int port = 0;
+
+  private:
+    pid_t process_ = -1;
+};
+
+TEST_F(ServeCommand, SendsRangesToWhoeverHasTheLinkUntilItIsEnded) {
+    Serving server(folder.path() / "a.isochron");
+    const int port = server.port;
+    const std::string& token = server.token;
+    const auto get = [&](const std::string& path, const std::string& more) {
+        return server.get(path, more);
     };
-    const std::string token = fmt::format("Authorization: Bearer {}\r\n", parts[2].str());
     const std::string file = folder.read("a.isochron");
     const std::string part = get("/a.isochron", token + "Range: bytes=0-7\r\n");
     EXPECT_THAT(part, StartsWith("HTTP/1.1 206"));
@@ -85,11 +114,58 @@ TEST_F(ServeCommand, SendsRangesToWhoeverHasTheLinkUntilItIsEnded) {
     EXPECT_THAT(asked(port, "GET /" + std::string(100000, 'a') + " HTTP/1.1\r\n\r\n"),
                 testing::Not(StartsWith("HTTP/1.1 2")));
     EXPECT_THAT(get("/site.json", token), HasSubstr("a.isochron"));
-    kill(server, SIGTERM);
-    int status = 0;
-    ASSERT_EQ(waitpid(server, &status, 0), server);
-    EXPECT_TRUE(WIFEXITED(status));
-    close(said[0]);
+    EXPECT_TRUE(server.end());
+}
+
+TEST_F(ServeCommand, ItsLinkOpensTheIndexInTheProgram) {
+    const Serving server(folder.path() / "a.isochron");
+    setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
+    const ChildResult found =
+        isochron({"query", server.link, "--isovalue", "0.5", "--step", "1", "-o", "ids.bin"});
+    ASSERT_EQ(found.status, 0) << found.err;
+    const std::string ids = folder.read("ids.bin");
+    std::vector<std::uint32_t> numbers(ids.size() / 4);
+    std::memcpy(numbers.data(), ids.data(), ids.size());
+    EXPECT_EQ(numbers, active(1, 0.5));
+    EXPECT_THAT(found.out + found.err, testing::Not(HasSubstr(server.token.substr(22, 32))));
+    expect_failure(isochron({"query", server.link.substr(0, server.link.find('#')), "--isovalue",
+                             "0", "--step", "0"}),
+                   1, "401");
+}
+
+TEST_F(ServeCommand, FollowsAnIndexThatGrowsStateByState) {
+    setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
+    ASSERT_EQ(isochron({"build", "t0.raw", "t1.raw", "--dims", "14", "11", "9", "--type", "f32",
+                        "-o", "g.isochron"})
+                  .status,
+              0);
+    const Serving server(folder.path() / "g.isochron", "--follow");
+    const auto tag = [&] {
+        const std::string head = server.get("/g.isochron", server.token + "Range: bytes=0-7\r\n");
+        const std::size_t at = head.find("ETag: "), total = head.find("Content-Range: ");
+        EXPECT_NE(at, head.npos) << head;
+        return head.substr(at, head.find('\r', at) - at) +
+               head.substr(total, head.find('\r', total) - total);
+    };
+    const std::string first = tag();
+    {
+        std::ofstream more(folder.path() / "g.isochron", std::ios::binary | std::ios::app);
+        more << "what an append has written so far";
+    }
+    EXPECT_EQ(tag(), first) << "as long as no header names it";
+    EXPECT_THAT(server.get("/site.json", server.token), HasSubstr("\"follow\": true"));
+    const auto at_step = [&](const char* step) {
+        return isochron({"query", server.link, "--isovalue", "0.5", "--step", step, "-o", "ids.bin",
+                         "--force"});
+    };
+    expect_failure(at_step("2"), 1, "expected 0 to 1");
+    ASSERT_EQ(isochron({"build", "t0.raw", "t1.raw", "t2.raw", "--dims", "14", "11", "9", "--type",
+                        "f32", "-o", "g.isochron", "--append"})
+                  .status,
+              0);
+    EXPECT_NE(tag(), first);
+    ASSERT_EQ(at_step("2").status, 0);
+    EXPECT_EQ(folder.read("ids.bin").size(), 4 * active(2, 0.5).size());
 }
 
 TEST_F(ServeCommand, WritesASiteIntoAFolderOfItsOwn) {

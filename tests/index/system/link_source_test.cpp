@@ -129,7 +129,10 @@ TEST(LinkSource, GivesTheBytesOfTheFileOrOneLine) {
         const auto transport = std::make_shared<ByChance>(file, random(), faults);
         try {
             const auto source = open_link("http://h/a.isochron", transport, false);
-            ASSERT_EQ(source->size(), file.size());
+            if (source->size() != file.size()) { // what an index says itself
+                ASSERT_GT(faults, 0);
+                continue;
+            }
             for (int n = 0; n < 10; ++n) {
                 const std::uint64_t offset = random() % file.size();
                 std::vector<std::byte> out(

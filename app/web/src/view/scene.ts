@@ -5,6 +5,7 @@ import type { Surface } from "../link";
 import type { Found } from "../messages";
 import type { Info } from "../reader/index_file";
 import { Headset, type HeadsetWishes } from "./headset";
+import { Ticks } from "./ticks";
 
 /** Camera: place, target and zoom in one list of numbers, for links. */
 export type View = [number, number, number, number, number, number];
@@ -27,7 +28,11 @@ export class Scene {
   /** Called after the camera was moved. */
   moved: () => void = () => {};
 
-  constructor(canvas: HTMLCanvasElement) {
+  private readonly ticks: Ticks;
+
+  /** @param numbers gets the ticks of the box */
+  constructor(canvas: HTMLCanvasElement, numbers: HTMLElement) {
+    this.ticks = new Ticks(numbers);
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(window.devicePixelRatio);
     this.camera.up.set(0, 0, 1);
@@ -47,6 +52,7 @@ export class Scene {
   frame(info: Info): void {
     const size = info.vertices.map((n, axis) => info.positions[axis]!.at(-1) ?? (n - 1) * info.spacing[axis]!);
     const columns = info.direction.map((column, axis) => new THREE.Vector3(...column).multiplyScalar(size[axis]!));
+    this.ticks.show(info, columns);
     const corners = [...Array(8).keys()].map((bits) =>
       columns.reduce((sum, column, axis) => (bits >> axis & 1 ? sum.add(column) : sum), new THREE.Vector3()),
     );
@@ -180,6 +186,8 @@ export class Scene {
     this.world.updateMatrixWorld();
     this.cut.copy(this.cutOfData).applyMatrix4(this.world.matrixWorld);
     this.renderer.render(this.scene, this.camera);
+    const { clientWidth, clientHeight } = this.renderer.domElement;
+    if (!this.renderer.xr.isPresenting) this.ticks.draw(this.camera, clientWidth, clientHeight);
   }
 
   private resize(): void {

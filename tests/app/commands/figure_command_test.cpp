@@ -104,7 +104,6 @@ TEST_F(FigureCommand, HasAllWordsAsTextAndTheSizesOfItsFile) {
     EXPECT_THAT(tool("pdffonts f.pdf").out, HasSubstr("DejaVuSans-Bold"));
     EXPECT_EQ(tool("pdffonts f.pdf | awk 'NR > 2 && $(NF - 4) != \"yes\"'").out, "")
         << "embedded: the fifth column from the right";
-    EXPECT_EQ(tool("pdfimages -list f.pdf | grep -c ' image '").out, "2\n");
 }
 
 TEST_F(FigureCommand, OfPixelsHasAsManyAsItsResolutionSays) {

@@ -172,7 +172,7 @@ std::vector<std::uint64_t> column_counts(const PanelModel& model) {
         const double number = std::ceil((static_cast<double>(bin) + 1) / wide) - 1;
         counts.push_back(bins[static_cast<std::size_t>(number * wide)]);
     }
-    if (!bins.empty()) // of the highest number alone
+    if (!bins.empty()) // the last bin holds the highest number alone
         counts.push_back(bins.back());
     return counts;
 }

@@ -161,7 +161,7 @@ TEST_F(PanelTest, ColumnsOfWholeNumbersLeaveNoGaps) {
     EXPECT_EQ(counts(index::ValueType::u8, 5, 7, {{0, 30}, {255, 7}}), wanted);
     std::fill_n(wanted.begin() + 128, 127, 4);
     EXPECT_EQ(counts(index::ValueType::u8, 5, 7, {{0, 30}, {128, 4}, {255, 7}}), wanted);
-    info_.scaling.slope = -0.5; // the same three numbers
+    info_.scaling.slope = -0.5; // three numbers again, half as far apart
     EXPECT_EQ(counts(index::ValueType::i16, 5, 6, {{0, 30}, {128, 4}, {255, 7}}), wanted);
     info_.scaling.slope = 1;
     // 253 numbers, one in each of 253 bins of 256.

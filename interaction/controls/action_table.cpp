@@ -130,7 +130,7 @@ KeyLine tool_line() {
         if (!row.key)
             continue;
         line.actions.back().keys = {*row.key};
-        line.effect += line.effect.empty() ? "tool of mouse and wand: " : ", ";
+        line.effect += line.effect.empty() ? "tool (mouse, wand): " : ", ";
         line.effect += row.found_as.substr(0, row.found_as.find(" ("));
     }
     return line;
@@ -306,7 +306,7 @@ std::vector<KeyLine> all_lines() {
     add(stamp, "stamp", 31, {'M'}, kQuiet);
     line("Tab", "panel on, off");
     add(panel, "panel", 32, {Key::tab}, kQuiet, "", toggle<&Settings::panel, &Commands::panel>);
-    line("Ctrl + D", "drawer of curves: area, volume, pieces over all steps: on, off");
+    line("Ctrl + D", "curves: area, volume, pieces over all steps: on, off");
     add(curves, "curves", kNoOldBit, {{'D', kCtrl}}, kQuiet,
         "curves over all steps: area, volume, pieces of the surfaces", [](const Press& p) {
             CurveDrawer drawer = p.context.settings.curves;
@@ -392,7 +392,7 @@ const std::array<const ActionRow*, kActions>& rows() {
     return all;
 }
 
-std::optional<Action> action_with(auto ActionRow::*member, const auto& value) {
+std::optional<Action> action_with(auto ActionRow::* member, const auto& value) {
     const auto row =
         std::ranges::find(rows(), value, [&](const ActionRow* each) { return each->*member; });
     return row == rows().end() ? std::nullopt : std::optional((*row)->action);

@@ -68,7 +68,7 @@ class Links : public CommandLine {
                                                 60 * std::sin(0.05 * double(x)) *
                                                     std::sin(0.07 * double(y)) *
                                                     std::cos(0.06 * double(z)) +
-                                                (x * 7 + y * 5 + z * 3) % 11);
+                                                static_cast<double>((x * 7 + y * 5 + z * 3) % 11));
         folder.write("big.raw", values);
         const std::string n = std::to_string(kEdge);
         EXPECT_EQ(

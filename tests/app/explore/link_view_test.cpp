@@ -54,7 +54,7 @@ TEST_F(LinkView, IsReadAsItWasWritten) {
     EXPECT_EQ(read.isosurfaces[0].isovalue, 1.25);
     EXPECT_EQ(read.isosurfaces[1].isovalue, -3);
     EXPECT_FLOAT_EQ(read.isosurfaces[1].opacity, 0.5f);
-    EXPECT_NEAR(read.isosurfaces[0].color.g, 0.2, 0.002);
+    EXPECT_NEAR(read.isosurfaces[0].color.y, 0.2, 0.002);
     EXPECT_EQ(read.picked, 1u);
     EXPECT_EQ(read.instant.step, 1u);
     EXPECT_EQ(link_to("http://h/a.isochron", read, file_, kScreen), link);

@@ -62,11 +62,11 @@ interaction::Commands OperatorPanel::draw_alone(const Model& model, interaction:
     return console_ ? console_->draw(model(PanelPlace::whole), time) : interaction::Commands();
 }
 
-stereo::Margins OperatorPanel::covered(glm::ivec2 size, bool curves) const {
+stereo::Margins OperatorPanel::covered(glm::ivec2 size, const PanelRows& rows) const {
     if (console_ || !first_.has_window())
         return {};
     const float scale = panel_scale(first_, font_scale_, size.x);
-    const PanelBox free = layout_in(PanelPlace::over, glm::vec2(size) / scale, curves).picture;
+    const PanelBox free = layout_in(PanelPlace::over, glm::vec2(size) / scale, rows).picture;
     const glm::ivec2 low(glm::round(scale * free.low)), high(glm::round(scale * free.high));
     if (2 * low.x > size.x || 2 * (high.y - low.y) < size.y)
         return {};

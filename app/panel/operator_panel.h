@@ -82,7 +82,7 @@ class OperatorPanel {
     /// Pixels that the panel covers at the edges of the picture; none where they would leave less
     /// than half of its width. @param size of the part of the picture that one eye has
     /// @param curves their drawer is open
-    stereo::Margins covered(glm::ivec2 size, bool curves) const;
+    stereo::Margins covered(glm::ivec2 size, const PanelRows& rows) const;
     /// Height of the panel's words, as a share of that part's height.
     float text_share(glm::ivec2 size) const;
     /// Whether the panel over the picture is under the cursor.

@@ -94,8 +94,7 @@ glm::vec2 section_over_picture(const PanelModel& model, const PanelView& view, P
 /// What lies over the picture while the panel is shown.
 void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, Commands& commands) {
     const PanelBox free = view.layout.picture;
-    const float lane = model.asked.keys.empty() ? 0.0f : kFilmLane;
-    view.free = {{free.low.x, free.low.y + 10.0f}, {free.high.x, free.high.y - lane}};
+    view.free = {{free.low.x, free.low.y + 10.0f}, free.high};
     view.lowest = view.free.low.y;
     constexpr float kApart = 8.0f, kPadding = 8.0f, kLeast = 280.0f; // for messages
     const auto keep_off = [&](const glm::vec2& corner) {
@@ -146,7 +145,7 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
     Commands commands;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const PanelLayout& layout = view.layout =
-        layout_in(model.place, {size.x, size.y}, model.asked.curves.shown);
+        layout_in(model.place, {size.x, size.y}, rows_of(model.asked));
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left))
         view.pointed.reset();
     if (!layout.folded)

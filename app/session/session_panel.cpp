@@ -112,7 +112,7 @@ void SessionPanel::draw_alone(const Facts& facts, interaction::Seconds time) {
 
 stereo::Margins SessionPanel::covered(const ExplorerState& state) const {
     const glm::ivec2 size = outputs_.windows().first().framebuffer_size();
-    return is_flat(state) ? over_.covered(size / places(state), state.curves.shown)
+    return is_flat(state) ? over_.covered(size / places(state), rows_of(state))
                           : stereo::Margins{};
 }
 

@@ -36,7 +36,7 @@ namespace {
 using interaction::Commands;
 using interaction::KeyFrame;
 
-constexpr float kFilmRow = kFilmLane - 6.0f, kFilmMark = 6.0f, kFilmHand = 8.0f; ///< panel pixels
+constexpr float kFilmMark = 6.0f, kFilmHand = 8.0f; ///< panel pixels
 
 std::shared_ptr<FilmPreview> begun_preview(const PanelModel& model) {
     constexpr double kUsualRate = 30, kMostFrames = 20'000;
@@ -200,10 +200,10 @@ void film_lane(const PanelModel& model, const PanelLayout& layout, FilmLane& lan
     if (lane.dragged && *lane.dragged >= keys.size())
         lane.dragged.reset();
     const double seconds = interaction::seconds_of(keys);
-    const float right = layout.picture.high.x - 8.0f, left = layout.picture.low.x + 8.0f;
-    ImGui::SetNextWindowPos({left, layout.time.low.y - kFilmRow - 6.0f});
-    ImGui::SetNextWindowSize({right - left, kFilmRow});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6.0f, 2.0f});
+    const PanelBox& row = layout.film;
+    ImGui::SetNextWindowPos({row.low.x, row.low.y});
+    ImGui::SetNextWindowSize({row.size().x, row.size().y});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {14.0f, 2.0f});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(Ink::bar));
     ImGui::Begin("###film", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |

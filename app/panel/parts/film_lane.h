@@ -14,8 +14,6 @@ namespace isochron::app {
 
 struct FilmPreview;
 
-inline constexpr float kFilmLane = 38.0f; ///< height that it takes of the picture, panel pixels
-
 /// What the lane remembers from frame to frame.
 struct FilmLane {
     std::optional<std::size_t> chosen, dragged; ///< numbers of keys
@@ -25,7 +23,7 @@ struct FilmLane {
     std::shared_ptr<FilmPreview> preview;       ///< while the film plays
 };
 
-/// Draws it at the lower end of the picture, where there are keys.
+/// Draws it into its row of the layout, where there are keys.
 void film_lane(const PanelModel& model, const PanelLayout& layout, FilmLane& lane,
                interaction::Commands& commands);
 

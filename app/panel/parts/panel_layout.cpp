@@ -8,6 +8,7 @@ namespace {
 
 constexpr float kTop = 36.0f, kTime = 52.0f, kTimeOfTwoRows = 84.0f;
 constexpr float kColumn = 300.0f, kIcons = 40.0f;
+constexpr float kFilmRow = 32.0f;
 constexpr float kFoldedBelow = 800.0f; ///< width of the picture's window
 constexpr float kOneRow = 560.0f;      ///< width of the bar of the time, at least
 /// Bar at the top of the panel in the room, by which a hand carries it.
@@ -21,7 +22,11 @@ float drawer_height(float height) {
 
 } // namespace
 
-PanelLayout layout_in(PanelPlace place, glm::vec2 size, bool curves) {
+PanelRows rows_of(const interaction::Settings& settings) {
+    return {.film = !settings.keys.empty(), .curves = settings.curves.shown};
+}
+
+PanelLayout layout_in(PanelPlace place, glm::vec2 size, const PanelRows& rows) {
     PanelLayout layout;
     layout.two_rows = size.x < kOneRow;
     const bool over = place == PanelPlace::over;
@@ -31,10 +36,12 @@ PanelLayout layout_in(PanelPlace place, glm::vec2 size, bool curves) {
     const float right = !over ? size.x : std::min(layout.folded ? kIcons : kColumn, size.x);
     layout.top = {{0.0f, above}, {size.x, above + kTop}};
     layout.time = {{0.0f, below}, size};
-    // Beside the column the drawer takes its height from the picture, else from the column.
-    const float free = curves ? below - drawer_height(below - above - kTop) : below;
+    // Beside the column the rows take their height from the picture, else from the column.
+    const float lane = rows.film ? below - kFilmRow : below;
+    const float free = rows.curves ? lane - drawer_height(lane - above - kTop) : lane;
+    layout.film = {{over ? right : 0.0f, lane}, {size.x, below}};
     layout.column = {{0.0f, above + kTop}, {right, over ? below : free}};
-    layout.curves = {{over ? right : 0.0f, free}, {size.x, below}};
+    layout.curves = {{over ? right : 0.0f, free}, {size.x, lane}};
     layout.picture = {{right, above + kTop}, {size.x, over ? free : below}};
     return layout;
 }

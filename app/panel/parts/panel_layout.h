@@ -1,5 +1,5 @@
-// The layout of the panel: bars above and below, the column of sections, the drawer of curves, and
-// the picture.
+// The layout of the panel: bars above and below, the column of sections, the lane of a film, the
+// drawer of curves, and the picture.
 #pragma once
 
 #include "app/panel/panel_model.h"
@@ -22,19 +22,27 @@ struct PanelBox {
 
 struct PanelLayout {
     PanelBox top, column, time, picture;
-    PanelBox curves;     ///< drawer above the bar of the time; of no height where it is closed
+    PanelBox film;       ///< lane of key frames above the bar of the time; of no height without any
+    PanelBox curves;     ///< drawer above the lane; of no height where it is closed
     bool folded = false; ///< the column shows only icons, which open the sections over the picture
     bool two_rows = false; ///< in the bar of the time the buttons stand above the track
 
     /// Whether a part that is always there covers a place.
     bool covers(glm::vec2 at) const {
-        return top.contains(at) || column.contains(at) || time.contains(at) || curves.contains(at);
+        return top.contains(at) || column.contains(at) || time.contains(at) || film.contains(at) ||
+               curves.contains(at);
     }
     bool operator==(const PanelLayout&) const = default;
 };
 
+/// The rows between the picture and the bar of the time that are open.
+struct PanelRows {
+    bool film = false, curves = false;
+};
+/// Those of a session.
+PanelRows rows_of(const interaction::Settings& settings);
+
 /// The layout of a panel. @param size of the window or the panel in the room, panel pixels
-/// @param curves their drawer is open
-PanelLayout layout_in(PanelPlace place, glm::vec2 size, bool curves);
+PanelLayout layout_in(PanelPlace place, glm::vec2 size, const PanelRows& rows = {});
 
 } // namespace isochron::app

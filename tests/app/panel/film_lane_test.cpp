@@ -33,7 +33,8 @@ class FilmLaneTest : public LayerTest {
     /// between the button and the words.
     glm::vec2 place(double time) {
         const PanelBox& picture = layer_.layout().picture;
-        const float y = layer_.layout().time.low.y - 6 - kFilmLane / 2 + 3;
+        const PanelBox& row = layer_.layout().film;
+        const float y = (row.low.y + row.high.y) / 2;
         // From the marks that are drawn, as people find them: scanned by the words that they say.
         std::vector<float> marks;
         for (float x = picture.low.x + 40; x < picture.high.x - 100; x += 2) {

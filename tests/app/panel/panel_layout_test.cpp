@@ -16,35 +16,34 @@ namespace {
 using interaction::Action;
 
 double share_of_picture(glm::vec2 size) {
-    const glm::vec2 picture = layout_in(PanelPlace::over, size, false).picture.size();
+    const glm::vec2 picture = layout_in(PanelPlace::over, size).picture.size();
     return double(picture.x) * double(picture.y) / (double(size.x) * double(size.y));
 }
 
 TEST(PanelLayout, LeavesMostOfTheWindowToThePicture) {
     EXPECT_GE(share_of_picture({1280, 800}), 0.68);
     EXPECT_GE(share_of_picture({640, 480}), 0.60);
-    EXPECT_FALSE(layout_in(PanelPlace::over, {1280, 800}, false).folded);
-    EXPECT_TRUE(layout_in(PanelPlace::over, {640, 480}, false).folded);
+    EXPECT_FALSE(layout_in(PanelPlace::over, {1280, 800}).folded);
+    EXPECT_TRUE(layout_in(PanelPlace::over, {640, 480}).folded);
 }
 
 TEST(PanelLayout, FillsThePanelWithoutGapsOrOverlaps) {
-    for (const auto& [place, curves] : {std::pair(PanelPlace::over, false),
-                                        {PanelPlace::over, true},
-                                        {PanelPlace::whole, false},
-                                        {PanelPlace::whole, true},
-                                        {PanelPlace::in_room, false},
-                                        {PanelPlace::in_room, true}})
+    for (int way = 0; way < 12; ++way)
         for (const glm::vec2 size : {glm::vec2(300, 240), glm::vec2(400, 540), glm::vec2(640, 480),
                                      glm::vec2(1280, 720), glm::vec2(1280, 800)}) {
-            SCOPED_TRACE(testing::Message()
-                         << int(place) << curves << ' ' << size.x << ' ' << size.y);
-            const PanelLayout layout = layout_in(place, size, curves);
+            SCOPED_TRACE(testing::Message() << way << ' ' << size.x << ' ' << size.y);
+            const auto place = static_cast<PanelPlace>(way / 4);
+            const PanelRows rows{.film = way % 2 == 1, .curves = way / 2 % 2 == 1};
+            const PanelLayout layout = layout_in(place, size, rows);
             const bool over = place == PanelPlace::over;
             EXPECT_EQ(layout.top.high.y, layout.column.low.y);
             EXPECT_EQ(layout.column.high.y, over ? layout.time.low.y : layout.curves.low.y);
-            EXPECT_EQ(layout.curves.high, glm::vec2(size.x, layout.time.low.y));
+            EXPECT_EQ(layout.film.high, glm::vec2(size.x, layout.time.low.y));
+            EXPECT_EQ(layout.curves.high, glm::vec2(size.x, layout.film.low.y));
+            EXPECT_EQ(layout.film.low.x, layout.curves.low.x);
+            EXPECT_EQ(layout.film.size().y > 0, rows.film);
             EXPECT_EQ(layout.curves.low.x, over ? layout.column.high.x : 0);
-            EXPECT_EQ(layout.curves.size().y > 0, curves);
+            EXPECT_EQ(layout.curves.size().y > 0, rows.curves);
             EXPECT_LE(layout.curves.size().y, (layout.time.low.y - layout.top.high.y) / 2);
             EXPECT_EQ(layout.time.high, size);
             EXPECT_EQ(layout.column.high.x, layout.picture.low.x);

@@ -177,6 +177,8 @@ void check_source(const MovieOptions& options, bool of_index) {
     if (!series.keys.empty() && (series.turns() || !series.film.empty() || !series.steps.empty()))
         throw UsageError("--keys: the keys say where to look and which steps pass; --film, --turn "
                          "and --steps go without them");
+    if (series.length && !series.turns())
+        throw UsageError("--length: it is the length of a turn; expected it with --turn or --film");
     if (series.turn && series.film == "time")
         throw UsageError("--turn: `--film time` has no turn; expected one of the two");
     if (options.panorama && (options.emulate || options.stereo || options.eyes == "each"))
@@ -528,9 +530,10 @@ void add_movie(Command& program) {
         .type_name("FILM");
     command.flag("--turn", options->series.turn,
                  "`--film both`; with `--steps 5`, one turn while step 5 stands");
-    command.option("--length", options->series.seconds, "With an index: length of the turn")
+    command
+        .option("--length", options->series.length,
+                "With an index: length of the turn (default: 10)")
         .between(0.1, interaction::kLongestFilm)
-        .shows_default()
         .type_name("SECONDS");
     command.flag("--panorama", options->panorama,
                  "All directions for both eyes: equirectangular, the left eye's picture above the "

@@ -69,7 +69,8 @@ std::vector<interaction::KeyFrame> turn(const Session& session, const index::Ser
                                      movie.steps));
     return interaction::turn_keys(
         session.state(), physical_center(info.grid), index::Instant(steps.front()),
-        index::Instant(movie.film == "turn" ? steps.front() : steps.back()), movie.seconds);
+        index::Instant(movie.film == "turn" ? steps.front() : steps.back()),
+        movie.length.value_or(kUsualTurn));
 }
 
 } // namespace

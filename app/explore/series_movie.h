@@ -12,6 +12,8 @@
 
 namespace isochron::app {
 
+inline constexpr double kUsualTurn = 10; ///< length of a turn [s]
+
 struct SeriesMovie {
     std::optional<double> isovalue;     ///< none: as at the first look
     std::string steps;                  ///< FIRST:LAST[:STRIDE]; empty: all
@@ -19,7 +21,7 @@ struct SeriesMovie {
     std::string keys{};                 ///< file of keys, or session that has them; empty: none
     bool turn = false;                  ///< one turn about the data's up axis, while the steps pass
     std::string film{};                 ///< `time`, `turn`, `both`; empty: as `turn` says
-    double seconds = 10;                ///< length of the turn
+    std::optional<double> length;       ///< of the turn [s]; empty: kUsualTurn
     bool turns() const { return turn || film == "turn" || film == "both"; }
 };
 

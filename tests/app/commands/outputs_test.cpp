@@ -185,8 +185,9 @@ TEST_P(EachOutputOfAReader, ReplacesNothingThatIsReadNotEvenByForce) {
         fs::create_hard_link(folder_.path() / read, twin);
         for (const std::string& out :
              {read, "elsewhere/../" + link.filename().string(), twin.filename().string()})
-            // What a movie is called says how it is encoded.
-            if (way.page != "movie" || fs::path(out).extension() == suffix)
+            // What a movie or a figure is called says how it is encoded.
+            if ((way.page != "movie" && way.page != "figure") ||
+                fs::path(out).extension() == suffix)
                 expect_refused(with(way.command, out, true), "it would be overwritten",
                                "expected another name");
         expect_refused(with(way.command, link.filename().string()), "it would be overwritten",

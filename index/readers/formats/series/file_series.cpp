@@ -152,14 +152,16 @@ class FileSeries final : public VolumeSeries {
 
     std::string name(std::size_t file) const { return files_[file].path.string(); }
 
-    /// Whether `--steps` leaves the file out by its number: the first one has one step, and times are
-    /// known without opening the others.
+    /// Whether `--steps` leaves the file out without opening it: the first one has one step, this one
+    /// as many bytes, and times are known without opening the others.
     bool is_left_out(std::size_t index) const {
         if (!options_.steps || index == 0 || found_.front().steps != 1 ||
-            (timed_ && !files_[index].time && !options_.time_step))
+            (timed_ && !files_[index].time && !options_.time_step) ||
+            state_of(files_[index].path).size != found_.front().states.front().size)
             return false;
         const auto [first, last, stride] = *options_.steps;
-        return index < first || index > last || stride == 0 || (index - first) % stride != 0;
+        const std::size_t step = places_.size();
+        return step < first || step > last || stride == 0 || (step - first) % stride != 0;
     }
 
     /// Counts a file without opening it.
@@ -168,7 +170,6 @@ class FileSeries final : public VolumeSeries {
         info_.sources.push_back(files_[index].path.filename().string());
         info_.times.push_back(files_[index].time.value_or(static_cast<double>(places_.size())));
         places_.push_back({index, 0, info_.times.back()});
-        left_out_ = true;
     }
 
     void add(std::size_t index) {
@@ -191,10 +192,6 @@ class FileSeries final : public VolumeSeries {
             }
         found_.push_back(std::move(found));
         expect_few_steps(places_.size() + steps, name(index));
-        if (left_out_ && steps != 1)
-            throw Error(fmt::format("{}: {} steps, expected 1 as in {}: --steps has left out files "
-                                    "before it by their number",
-                                    name(index), steps, name(0)));
         const SeriesInfo& info = told ? first_ : open_->info(); // a head that tells has no times
         if (index == 0) {
             choose_as_in(info);
@@ -398,7 +395,6 @@ class FileSeries final : public VolumeSeries {
     SeriesInfo info_;
     SeriesInfo first_; ///< from the first file, before overrides
     bool timed_ = false;
-    bool left_out_ = false;             ///< files have been, by `leave_out`
     std::vector<StepPlace> places_;     ///< place of every step
     std::vector<Found> found_;          ///< what was found in every file
     std::optional<std::uint64_t> head_; ///< head of the first file, see `vti_header_hash`

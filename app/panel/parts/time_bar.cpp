@@ -243,6 +243,16 @@ void step_field(const PanelModel& model, Commands& commands) {
             .c_str());
 }
 
+void curves_button(const PanelModel& model, Commands& commands) {
+    interaction::CurveDrawer drawer = model.asked.curves;
+    if (!icon_button("curves", Icon::curves,
+                     "curves over all steps: area, volume, pieces of the surfaces (Ctrl + D)",
+                     drawer.shown))
+        return;
+    drawer.shown = !drawer.shown;
+    commands.curves = drawer;
+}
+
 } // namespace
 
 void time_bar(const PanelModel& model, bool two_rows, Commands& commands) {
@@ -260,13 +270,9 @@ void time_bar(const PanelModel& model, bool two_rows, Commands& commands) {
     ImGui::SameLine(0.0f, 4.0f);
     ImGui::SetCursorPosY((row_height - kIconButton) / 2);
     bookmark_buttons(model, width >= kWideTime, playback, commands);
-    ImGui::SameLine(0.0f, 2.0f);
-    interaction::CurveDrawer drawer = model.asked.curves;
-    if (icon_button("curves", Icon::curves,
-                    "curves over all steps: area, volume, pieces of the surfaces (Ctrl + D)",
-                    drawer.shown)) {
-        drawer.shown = !drawer.shown;
-        commands.curves = drawer;
+    if (width >= kNarrowTime) {
+        ImGui::SameLine(0.0f, 2.0f);
+        curves_button(model, commands);
     }
     if (two_rows) {
         ImGui::SetCursorPos({start.x, row_height});

@@ -97,7 +97,10 @@ class HelpExamples : public testing::Test {
     /// The demo series, and movies of a series, take a while in full.
     static void shorten(std::string& command) {
         if (command.starts_with("isochron movie run42"))
-            command.insert(std::min(command.find(" #"), command.size()), " --rate 2 --size 160 90");
+            command.insert(std::min(command.find(" #"), command.size()),
+                           command.find("--panorama") == std::string::npos
+                               ? " --rate 2 --size 160 90"
+                               : " --rate 2 --size 256 256");
         if (command.starts_with("isochron generate") && command.find("--step") == std::string::npos)
             command.insert(std::min(command.find(" #"), command.size()),
                            command.find("sphere") == std::string::npos ? " --steps 1 --size 16"
@@ -196,6 +199,7 @@ std::vector<std::string> commands_in(const std::filesystem::path& page) {
             block = line == "```sh";
         const auto has = [&](const char* word) { return line.find(word) != std::string::npos; };
         if (block && line.starts_with("isochron ") && !has("--live") &&
+            !has(" 'http") && // no server is there
             (!has(" serve ") || has("--write-site")) && // else it goes on until it is ended
             (!has(" explore ") || has("--check-config") || has("--list-devices")))
             found.push_back(line);

@@ -235,7 +235,7 @@ class CurlTransport final : public HttpTransport {
 struct TransportOfProcess {
     std::mutex mutex;
     pid_t owner = 0;
-    std::shared_ptr<HttpTransport>* transport = nullptr; ///< another process's is left alone
+    CurlTransport* transport = nullptr; ///< another process's is left alone
     ~TransportOfProcess() {
         if (owner == ::getpid())
             delete transport;
@@ -246,10 +246,11 @@ std::shared_ptr<HttpTransport> curl_transport() {
     static TransportOfProcess of;
     const std::lock_guard lock(of.mutex);
     if (of.owner != ::getpid()) {
-        of.transport = new std::shared_ptr<HttpTransport>(std::make_shared<CurlTransport>());
+        of.transport = new CurlTransport();
         of.owner = ::getpid();
     }
-    return *of.transport;
+    // It owns nothing: who asked last may end on the transport's own thread, which cannot wait for itself.
+    return {std::shared_ptr<void>(), of.transport};
 }
 
 } // namespace

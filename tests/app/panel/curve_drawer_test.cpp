@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace isochron::app {
 namespace {
@@ -21,6 +22,7 @@ class CurveDrawerTest : public LayerTest {
   protected:
     CurveDrawerTest() {
         info_.times.resize(kSteps);
+        std::iota(info_.times.begin(), info_.times.end(), 0.0);
         info_.length_unit = "mm";
         const index::TestField field({5, 5, 5}, kSteps, index::ValueType::f32,
                                      [](double x, double, double, double t) { return x + t; });
@@ -81,7 +83,7 @@ TEST_F(CurveDrawerTest, PlotsTheMeasureWhoseLineIsPressed) {
 
 TEST_F(CurveDrawerTest, ListsWhenTheValueAtTheMarkCrossesTheIsovalue) {
     asked_.curves.measure = kMarkCurve;
-    const interaction::Commands commands = click_word("rising");
+    const interaction::Commands commands = click_word("11.5 rising");
     ASSERT_TRUE(commands.instant);
     EXPECT_EQ(*commands.instant, index::Instant(11)) << "11.5 is below 12, the next one above";
 }

@@ -430,12 +430,8 @@ void Scene::draw_before_cells(std::span<const render::View> views, const Picture
         std::vector<render::ScreenQuad> quads;
         for (const render::Label& label : labels)
             text_pass_.set(label, text_height(view.size, picture.layout.text), quads);
-        // A title that found no room beside the box stands before cells. Two eyes see words no
-        // nearer than what covers their place.
-        const bool flat = views.size() == 1;
-        text_pass_.draw(view, placement.room_from_index, quads,
-                        flat ? render::TextPass::Depth::none : render::TextPass::Depth::tested,
-                        flat);
+        text_pass_.draw(view, placement.room_from_index, quads, render::TextPass::Depth::tested,
+                        views.size() == 1);
     }
 }
 

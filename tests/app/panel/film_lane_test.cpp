@@ -40,7 +40,8 @@ class FilmLaneTest : public LayerTest {
                 point({x, y});
                 frame();
                 if (place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(),
-                                  "a click shows it, drag it to another time of"))
+                                  "a click shows it, drag it to another time of the film, "
+                                  "Delete removes it"))
                     return x + 2 * by;
             }
             ADD_FAILURE() << "no mark says what it is";

@@ -353,7 +353,7 @@ void draw_frames(const MovieOptions& options, Session& session,
         there > 0)
         print_report("going on: {} of its pictures are there, in {}\n", there,
                      whole_path(kept.folder().string()));
-    std::optional<std::vector<FramePart>> read; ///< of the frame that comes next
+    std::optional<std::vector<FramePart>> read; ///< parts of the frame that comes next
     const CancelOnSignal signals;
     ProgressBar bar;
     const Skips skips = [&](std::size_t number) {

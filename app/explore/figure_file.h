@@ -26,7 +26,7 @@ struct FigurePanel {
 
 struct FigureFile {
     double width = 180;        ///< [mm] of the page
-    double dpi = 300;          ///< of its pictures, and of a PNG or TIFF
+    double dpi = 300;          ///< resolution of its pictures, and of a PNG or TIFF
     double font_size = 8;      ///< [pt]
     double margin = 2;         ///< [mm] on each side
     double gap = 4;            ///< [mm] between panels
@@ -34,9 +34,9 @@ struct FigureFile {
     std::string letters = "a"; ///< `a`, `A`, `(a)` or `none`
     std::string caption;
     std::vector<FigurePanel> panels;
-    std::string text; ///< of the whole file
+    std::string text; ///< the whole file
     std::map<std::string, std::string>
-        texts; ///< of sessions and files of keys, by their names in it
+        texts; ///< sessions and files of keys, by their names in it
 };
 
 inline constexpr std::size_t kMostPanels = 4;

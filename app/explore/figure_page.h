@@ -15,9 +15,9 @@ namespace isochron::app {
 /// What a figure was made of, for `reproduce`.
 struct FigureRecord {
     std::string program, drawn_with;
-    std::string text;                         ///< of the file that describes it
+    std::string text;                         ///< the file that describes it
     std::map<std::string, std::string> texts; ///< as `FigureFile::texts`
-    /// Of each panel: file name of its index without its folder, and the hash of its data.
+    /// For each panel: file name of its index without its folder, and the hash of its data.
     std::vector<std::string> data, hashes;
 };
 
@@ -27,7 +27,7 @@ FigureRecord figure_record_from(const std::string& text);
 struct MadeFigure {
     Page page; ///< with its record as the note
     FigureRecord record;
-    std::vector<std::filesystem::path> data; ///< of each panel
+    std::vector<std::filesystem::path> data; ///< for each panel
 };
 
 /// @param name of the file that describes the figure, for messages

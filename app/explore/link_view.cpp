@@ -78,7 +78,7 @@ struct LinkSight {
     double half = 1;     ///< half the height of the picture at distance 1
     double distance = 1; ///< [m] to the screen
     glm::dmat3 room_from_eye{1.0};
-    glm::dvec3 middle{0.0}; ///< of the screen, room space
+    glm::dvec3 middle{0.0}; ///< middle of the screen, room space
 };
 LinkSight sight_of(const LinkScreen& of) {
     const render::View view =

@@ -67,7 +67,7 @@ std::vector<std::string> replay_fixed_step(Session& session,
                                            const Skips& skips) {
     std::vector<std::string> different;
     expect_arrays(session, recording);
-    Commands waiting; // of skipped frames
+    Commands waiting; // commands of skipped frames
     bool waits = false;
     for (std::size_t number = 0; number < recording.frames.size(); ++number) {
         const interaction::RecordedFrame& frame = recording.frames[number];

@@ -178,7 +178,7 @@ isochron_page_pdf(const Page& page, std::vector<std::byte>& bytes, std::string& 
         // So that its entries are no part of a packed stream.
         cairo_pdf_surface_restrict_to_version(surface.get(), CAIRO_PDF_VERSION_1_4);
         cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR, "isochron");
-        // The same figure has the same bytes at any time.
+        // A figure has equal bytes at any time.
         cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, nullptr);
         cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_KEYWORDS,
                                        page.note.c_str());

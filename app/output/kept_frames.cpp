@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr const char* kFramesEnd = ".frames";
 constexpr std::string_view kKeptName = "frame_";
 constexpr std::string_view kFrameMagic = "isochron frame 1\n";
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 33; ///< of a frame: far above any picture
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 33; ///< bytes of a frame: far above any picture
 
 std::string file_of(std::size_t frame) {
     return fmt::format("{}{:06}", kKeptName, frame);

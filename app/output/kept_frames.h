@@ -15,7 +15,7 @@ namespace isochron::app {
 
 /// A picture of a frame.
 struct FramePart {
-    std::string suffix; ///< of its movie's name: `_front_left`
+    std::string suffix; ///< end of its movie's name: `_front_left`
     std::string note;   ///< text of its picture note
     render::Image image;
 };

@@ -48,7 +48,7 @@ std::string note_in_pdf(const std::string& bytes) {
     // As cairo writes it: plain, or as UTF-16 in hexadecimal digits where a backslash is in it.
     const std::string_view rest = std::string_view(bytes).substr(key + kKey.size());
     constexpr std::string_view kWide = "<FEFF";
-    constexpr std::size_t kDigits = 4; // of a character
+    constexpr std::size_t kDigits = 4; // digits of a character
     if (!rest.starts_with(kWide))
         return std::string(rest.substr(1, rest.find(')') - 1));
     std::string note;

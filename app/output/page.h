@@ -66,7 +66,7 @@ std::vector<std::byte> pdf_of(const Page& page, const std::filesystem::path& pat
 /// The page in pixels, `dpi` an inch, which the image says, too. @throws as `pdf_of`
 render::Image pixels_of(const Page& page, double dpi, const std::filesystem::path& path);
 
-inline constexpr const char* kFigureFormat = "isochron figure"; ///< of the notes of figures
+inline constexpr const char* kFigureFormat = "isochron figure"; ///< format that notes of figures name
 
 /// The note of a figure that this program wrote, .pdf, .png or .tiff; empty: it is none.
 /// @throws index::Error, render::Error naming the file

@@ -20,7 +20,7 @@ struct Legend {
     std::span<const interaction::Isosurface>
         surfaces;                   ///< those that are seen are listed if there are several
     std::string value_unit;         ///< unit of their isovalues
-    std::vector<ColorScale> scales; ///< of colored surfaces and of slices, from below
+    std::vector<ColorScale> scales; ///< scales of colored surfaces and of slices, from below
     bool colored = false;           ///< surfaces are colored by the first of them
     OverlayColors overlay{};
     std::string array{}; ///< that has the isovalues; stands over them where the scale is another's

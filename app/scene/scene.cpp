@@ -168,7 +168,7 @@ render::CellAppearance Scene::appearance_of(const Picture& picture) {
 }
 
 const render::Texture& Scene::map_of(const ColorScale& scale) {
-    constexpr std::size_t kScales = 2; // of surfaces and of slices
+    constexpr std::size_t kScales = 2; // those of surfaces and of slices
     const auto known =
         std::ranges::find_if(maps_, [&](const auto& each) { return same_map(each.first, scale); });
     if (known != maps_.end()) {

@@ -20,7 +20,7 @@
 #include "render/passes/background_pass.h"
 #include "render/passes/line_pass.h"
 #include "render/passes/panel_pass.h"
-#include "render/passes/slice_pass.h"
+#include "render/drawing/slice_pass.h"
 #include "render/passes/text_pass.h"
 #include "render/passes/veil_pass.h"
 
@@ -139,7 +139,7 @@ class Scene {
     index::SeriesInfo info_;
     render::CellAppearance configured_; ///< on which a picture's appearance is based
     CellSets cells_;
-    std::deque<std::pair<ColorScale, render::Texture>> maps_; ///< of the last scales
+    std::deque<std::pair<ColorScale, render::Texture>> maps_; ///< textures of the last scales
     CellsPicture kept_;
     const render::CellShape shape_;
     render::CellPass cell_pass_;

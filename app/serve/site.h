@@ -40,7 +40,7 @@ struct SiteParts {
     /// Hosts that a request may name; empty: any. It keeps pages of other sites from asking through a
     /// browser under a name of theirs.
     std::vector<std::string> hosts{};
-    /// Of files that grow: as what was written whole last. Null: files are as they are.
+    /// Files that grow, as what was written whole last. Null: files are as they are.
     std::function<std::optional<ServedFile>(const std::filesystem::path&)> written{};
 };
 

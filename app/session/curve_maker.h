@@ -1,8 +1,4 @@
 // Measures surfaces at all steps, on a thread of its own that stands behind the picture.
-//
-//     CurveMaker maker(measured_in_index());
-//     maker.update({.subjects = {{array, isovalue}}, .now = step, .rest = true});
-//     plot(maker.curves());        // in each frame: what is known by then
 #pragma once
 
 #include "app/frame/step_curve.h"

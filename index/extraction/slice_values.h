@@ -31,12 +31,12 @@ struct SliceQuery {
 /// only a run is held.
 struct SliceValues {
     struct Column {
-        std::uint32_t offset = 0; ///< of its run in `shares`
+        std::uint32_t offset = 0; ///< where its run begins in `shares`
         std::uint32_t first = 0;  ///< index along `axis` of the run's first vertex
     };
     SliceQuery query;
     std::array<double, 2> whole{}; ///< lowest and highest value of the array at any step
-    int axis = 2;                  ///< of the columns
+    int axis = 2;                  ///< axis along which columns lie
     /// [i2][i1], i1 fastest: indices of vertices along the axes after `axis`, and after that.
     std::vector<Column> columns;
     /// Runs of values as shares of `whole`, 0 to 1; kNoShare where a value is missing.

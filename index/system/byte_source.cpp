@@ -3,8 +3,6 @@
 
 #include "index/error.h"
 #include "index/system/input_file.h"
-#include "index/system/links/link.h"
-#include "index/system/links/link_source.h"
 
 #include <fmt/format.h>
 
@@ -105,8 +103,8 @@ void ByteSource::read_all(Some some, std::uint64_t offset, std::span<std::byte> 
     }
 }
 
-std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path) {
-    return is_link(path.native()) ? open_link(path.native()) : std::make_unique<OpenFile>(path);
+std::unique_ptr<ByteSource> open_local_bytes(const std::filesystem::path& path) {
+    return std::make_unique<OpenFile>(path);
 }
 
 } // namespace isochron::index

@@ -55,5 +55,7 @@ class ByteSource {
 
 /// @throws Error: missing, unreadable, not a regular file
 std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path);
+/// A file of this machine.
+std::unique_ptr<ByteSource> open_local_bytes(const std::filesystem::path& path);
 
 } // namespace isochron::index

@@ -18,7 +18,7 @@ class ClipTool final : public Tool {
     std::optional<ClipBox> moved_box(std::span<const ToolHand> hands, const ToolContext& now);
 
     PlaneHold hold_;
-    std::optional<BoxFace> face_; ///< of the box, which is held in the place of the plane
+    std::optional<BoxFace> face_; ///< face of the box that is held in the place of the plane
 };
 
 /// The plane through a place, across a direction in the room; the side that it comes from is cut away.

@@ -16,7 +16,7 @@
 #include "render/passes/picture_pass.h"
 #include "render/passes/reproject_pass.h"
 #include "render/passes/sample_sum.h"
-#include "render/passes/slice_pass.h"
+#include "render/drawing/slice_pass.h"
 #include "render/passes/solid_pass.h"
 #include "render/passes/text_pass.h"
 #include "render/passes/veil_pass.h"

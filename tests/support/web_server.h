@@ -47,7 +47,7 @@ class WebServer {
     int listener_ = -1;
     std::uint16_t port_ = 0;
     std::atomic<bool> ends_ = false;
-    std::vector<std::thread> connections_; ///< of the thread that accepts
+    std::vector<std::thread> connections_; ///< belongs to the thread that accepts
     std::thread accepting_;
 };
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a block and its place; never 0.
+/// The sum of a block and its place; never 0.
 std::uint64_t sum_of(std::uint64_t block, std::string_view bytes) {
     const std::uint64_t sum = XXH3_64bits_withSeed(bytes.data(), bytes.size(), block);
     return sum == 0 ? 1 : sum;

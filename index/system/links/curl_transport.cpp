@@ -227,7 +227,7 @@ class CurlTransport final : public HttpTransport {
     CURLM* multi_ = nullptr;
     std::mutex mutex_;
     std::list<Asked> fresh_; ///< guarded by the mutex
-    std::list<Asked> asked_; ///< of the thread
+    std::list<Asked> asked_; ///< the thread's
     std::jthread thread_;
 };
 

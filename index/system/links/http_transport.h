@@ -22,7 +22,7 @@ struct HttpRequest {
 
 struct HttpAnswer {
     int status = 0;                                          ///< 0: none came
-    std::vector<std::pair<std::string, std::string>> fields; ///< of the head; names in lower case
+    std::vector<std::pair<std::string, std::string>> fields; ///< fields of the head; names in lower case
     std::string body;
     std::string failure;   ///< why there is no whole answer; empty: there is one
     bool may_pass = false; ///< the failure may be over soon

@@ -31,7 +31,7 @@ int digit_of(char c) {
                                                     : -1;
 }
 
-/// Of a form: %XX is a byte, + is a space.
+/// A text as forms have it: %XX is a byte, + is a space.
 std::string of_form(std::string_view text) {
     std::string plain;
     for (std::size_t i = 0; i < text.size(); ++i) {

@@ -33,7 +33,7 @@ constexpr std::uint64_t kPiece = 1 << 20;    ///< most bytes of a read at a time
 constexpr std::uint64_t kTogether = 1 << 20; ///< most bytes of a request
 constexpr std::uint64_t kNear =
     16 << 10; ///< single ranges with less between them are asked for together
-constexpr std::size_t kMostRanges = 100;     ///< of a request
+constexpr std::size_t kMostRanges = 100;     ///< ranges in a request
 constexpr std::size_t kMostBlocks = 8 << 10; ///< that are held, and that wait: 64 MiB each
 constexpr unsigned kAtOnce = 6;              ///< requests
 constexpr unsigned kBusy = 2;                ///< so many are under way: small ones wait for more
@@ -475,7 +475,7 @@ class Content : public std::enable_shared_from_this<Content> {
     std::set<std::uint64_t> urgent_;                      ///< those of them that are waited for
     std::unordered_map<std::uint64_t, AwaitedPtr> asked_; ///< blocks of requests under way
     std::unordered_map<std::uint64_t, std::string> held_; ///< what came last
-    std::deque<std::uint64_t> order_;                     ///< of what is held
+    std::deque<std::uint64_t> order_;                     ///< blocks that are held
     std::optional<bool>
         several_;         ///< whether the server answers several ranges at once; empty: unknown
     bool trying_ = false; ///< a request finds that out
@@ -606,6 +606,10 @@ std::unique_ptr<ByteSource> open_link(const std::string& address,
 
 std::unique_ptr<ByteSource> open_link(const std::string& address) {
     return open_link(address_of(address), http_transport(), true);
+}
+
+std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path) {
+    return is_link(path.native()) ? open_link(path.native()) : open_local_bytes(path);
 }
 
 } // namespace isochron::index

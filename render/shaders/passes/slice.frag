@@ -6,7 +6,8 @@
 #include "color_map.glsl"
 
 layout(binding = 0) uniform usamplerBuffer columns; // of each, where its run begins, and at which vertex
-layout(binding = 1) uniform samplerBuffer shares;   // of values in the array's range; MISSING: none
+layout(binding = 1) uniform samplerBuffer shares;   // of values in the array's range; MISSING or more: none
+const float MISSING = 1.5e38;
 layout(binding = 7) uniform sampler1D map;
 layout(location = 8) uniform vec3 cells;            // along the axes of the grid
 layout(location = 9) uniform int axis;              // of the columns

@@ -25,6 +25,8 @@ struct Searched {
         asked.mark.point.emplace();
         asked.ruler.places.emplace_back(0.0);
         asked.clip.shown = true;
+        asked.clip_box.shown = true;
+        asked.slices.planes.emplace_back();
         asked.look.light = {30.0, 40.0};
         asked.keys.resize(2);
         asked.keys.back().time = 2;

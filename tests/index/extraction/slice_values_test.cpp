@@ -68,7 +68,7 @@ Along along(const Grid& grid, int axis, double distance) {
 struct Place {
     glm::dvec3 at; ///< physical
     std::array<Along, 3> in_cells;
-    bool near_border = false; ///< of a cell: rounding may find the next one
+    bool near_border = false; ///< border of a cell: rounding may find the next one
 };
 
 /// A random place of a plane within the grid; nothing: tried in vain.

@@ -20,7 +20,7 @@ namespace isochron::render {
 
 /// A line on a slice, where the values are those of a surface.
 struct Isoline {
-    float share = 0;       ///< of the array's range
+    float share = 0;       ///< place in the array's range, 0 to 1
     glm::vec3 color{1.0f}; ///< sRGB, 0 to 1
 };
 

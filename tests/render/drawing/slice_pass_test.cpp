@@ -3,7 +3,7 @@
 #include "render/gl/render_target.h"
 #include "render/gl/srgb.h"
 #include "render/passes/color_map.h"
-#include "render/passes/slice_pass.h"
+#include "render/drawing/slice_pass.h"
 #include "tests/support/drawing/gl_test.h"
 #include "tests/support/indexed.h"
 #include "tests/support/test_seed.h"
@@ -91,7 +91,7 @@ TEST_P(SlicePassTest, ShowTheTrilinearValueAtEveryPixelAndHoles) {
             for (int y = 0; y < kSide; ++y)
                 for (int x = 0; x < kSide; ++x) {
                     const glm::dvec3 index = grid.index_of(place_of(x, y));
-                    bool border = false; // of a cell or of the data, which rounding may cross
+                    bool border = false; // border of a cell or of the data, which rounding may cross
                     for (int axis = 0; axis < 3; ++axis)
                         border = border || std::abs(index[axis] - std::round(index[axis])) < 1e-3;
                     if (border)

@@ -1,14 +1,12 @@
 // Buffers and GL state for drawing slices.
-#include "render/passes/slice_pass.h"
+#include "render/drawing/slice_pass.h"
 
 #include "render/gl/srgb.h"
 #include "render/gl/viewport.h"
 
-#include <fmt/format.h>
 #include <glm/vec4.hpp>
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 namespace isochron::render {
@@ -26,15 +24,13 @@ enum Uniform : GLint {
     lines
 };
 
-std::string slice_prelude(const index::Grid& grid) {
-    return prelude_for(grid) + fmt::format("#define MISSING {:e}\n", index::kNoShare / 2);
-}
+static_assert(index::kNoShare / 2 == 1.5e38f, "slice.frag has it as MISSING");
 
 } // namespace
 
 SlicePass::SlicePass(const Gl& gl, const index::Grid& grid)
     : gl_(gl), grid_(grid),
-      program_(gl, {shader_file("slice.vert"), shader_file("slice.frag")}, slice_prelude(grid)),
+      program_(gl, {shader_file("slice.vert"), shader_file("slice.frag")}, prelude_for(grid)),
       no_attributes_(gl), axes_(gl, grid) {}
 
 void SlicePass::hold(std::span<const index::SliceValuesPtr> slices) {

@@ -119,7 +119,7 @@ ExplorerState filling_window(Session& session, const Config& config,
         !windows.first().has_window())
         return home;
     const glm::ivec2 size = windows.first().framebuffer_size();
-    const stereo::Margins panel = session.panel().covered(size, session.state().curves.shown);
+    const stereo::Margins panel = session.panel().covered(size, rows_of(session.state()));
     home.room_from_physical =
         filling(info, config.placement, screen,
                 {config.installation.viewers.front().position, {1, 0, 0, 0}},

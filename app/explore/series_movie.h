@@ -21,7 +21,7 @@ struct SeriesMovie {
     std::string keys{};                 ///< file of keys, or session that has them; empty: none
     bool turn = false;                  ///< one turn about the data's up axis, while the steps pass
     std::string film{};                 ///< `time`, `turn`, `both`; empty: as `turn` says
-    std::optional<double> length;       ///< of the turn [s]; empty: kUsualTurn
+    std::optional<double> length;       ///< seconds of the turn; empty: kUsualTurn
     bool turns() const { return turn || film == "turn" || film == "both"; }
 };
 

@@ -2,7 +2,6 @@
 #include "index/file/index_file.h"
 
 #include "index/file/detail_levels.h"
-#include "index/file/index_states.h"
 #include "index/file/sections/step_levels.h"
 #include "index/scan/bricks.h"
 #include "index/system/links/link_source.h"
@@ -16,6 +15,9 @@
 #include <utility>
 
 namespace isochron::index {
+
+// In index_states.h, which stands on this file.
+bool has_had(const IndexFile& file, std::uint64_t content_hash, std::size_t steps);
 namespace {
 
 constexpr std::uint64_t kMaxMetadataBytes = 256 << 20;

@@ -551,6 +551,7 @@ TEST(SessionFile, NoPixelOfAnyRestoredSessionDiffers) {
         commands.isovalue.reset();
         commands.array.reset(); // the index has one
         commands.leaving.reset();
+        commands.exporting.reset(); // ends with the program, and has a sign in the room
         state.apply(commands, kSteps);
         state.playback.playing = false; // time goes on while it plays
         state.quality = interaction::QualityMode::quality;

@@ -117,10 +117,15 @@ TEST(SearchLines, HaveCommandsThatChangeSomethingAndAreObeyed) {
 }
 
 TEST(SearchLines, HaveOtherNamesOnlyForControls) {
-    Searched session;
     std::set<std::string> names;
-    for (const SearchLine& line : session.lines())
-        names.insert(line.name);
+    for (const bool box : {false, true}) { // it is shown or removed
+        Searched session;
+        session.asked.clip_box.shown = box;
+        for (const SearchLine& line : session.lines()) {
+            names.insert(line.name);
+            names.insert(line.name.substr(0, line.name.find('='))); // one line for each choice
+        }
+    }
     names.insert("transparency"); // the other line of `opacity`
     std::set<std::string_view> rows;
     for (const std::string_view control : controls_with_other_names()) {

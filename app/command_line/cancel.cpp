@@ -68,7 +68,7 @@ CancelOnSignal::CancelOnSignal() {
         index::call_while_waiting_for_links(end_what_is_canceled);
         EndInTime::watch();
     }
-    struct sigaction action {};
+    struct sigaction action{};
     action.sa_sigaction = note_signal;
     action.sa_flags = SA_RESTART | SA_SIGINFO;
     for (std::size_t i = 0; i < kSignals.size(); ++i) {

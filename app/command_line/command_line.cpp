@@ -184,10 +184,7 @@ void add_telling_options(CLI::App& command) {
               "--json", "Print one JSON object in place of text; its keys: docs/guide/json.md"},
           {"--quiet", "Print no notes, no progress and no report of files written"},
           {"--verbose", "Also print on stderr what is opened and what the work took"}})
-        command
-            .add_flag_callback(
-                name, [] {}, help)
-            ->group(group);
+        command.add_flag_callback(name, [] {}, help)->group(group);
     command.set_help_flag("-h,--help", "Print this help")->group(group);
     if (CLI::Option* all = command.get_option_no_throw("--help-all"); all && command.get_parent())
         all->group(""); // told by the program

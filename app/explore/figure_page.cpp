@@ -322,8 +322,7 @@ class FigureLayout {
 
     /// What the legend takes beside the picture [mm].
     struct LegendRoom {
-        std::vector<std::pair<double, std::string>>
-            ticks{}; ///< share of the bar's height, and words
+        std::vector<ScaleTick> ticks{};
         std::vector<std::string> surfaces{};
         double width = 0;
     };
@@ -333,20 +332,10 @@ class FigureLayout {
             return room;
         double widest = 0;
         if (drawn.scale) {
-            const auto [low, high] = drawn.scale->range;
             constexpr int kMostTicksOfBar = 6;
-            const Ticks ticks = drawn.scale->logarithmic
-                                    ? logarithmic_ticks(low, high, kMostTicksOfBar)
-                                    : nice_ticks(low, high, kMostTicksOfBar);
-            for (std::size_t i = 0; i < ticks.values.size(); ++i) {
-                const double value = ticks.values[i];
-                room.ticks.emplace_back(
-                    share_on(*drawn.scale, value),
-                    drawn.scale->dates_of.empty()
-                        ? tick_text(value, drawn.scale->logarithmic ? value : ticks.step)
-                        : index::time_text(ticks.values, i, drawn.scale->dates_of));
-                widest = std::max(widest, width_of(room.ticks.back().second));
-            }
+            room.ticks = ticks_on(*drawn.scale, kMostTicksOfBar);
+            for (const ScaleTick& tick : room.ticks)
+                widest = std::max(widest, width_of(tick.words));
             widest = std::max(widest, width_of(drawn.scale->title) - 1.9 * size_);
         }
         if (drawn.surfaces.size() > 1)

@@ -93,11 +93,6 @@ LinkSight sight_of(const LinkScreen& of) {
             .middle = middle};
 }
 
-/// Where the page's points count from.
-glm::dvec3 first_vertex(const index::IndexFile& file) {
-    return glm::dvec3(file.info().grid.physical_from_index() * glm::dvec4(0, 0, 0, 1));
-}
-
 /// The axes of a camera of the page, whose z is up: right, up, and back to the viewer.
 glm::dmat3 page_axes(const glm::dvec3& back) {
     const glm::dvec3 up = std::abs(back.z) < 1 - 1e-9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
@@ -107,7 +102,7 @@ glm::dmat3 page_axes(const glm::dvec3& back) {
 
 void see_as_linked(ExplorerState& state, const std::vector<double>& view,
                    const index::IndexFile& file, const LinkScreen& screen) {
-    const glm::dvec3 origin = first_vertex(file);
+    const glm::dvec3 origin = file.info().grid.origin; // where the page's points count from
     const glm::dvec3 eye = glm::dvec3(view[0], view[1], view[2]) + origin,
                      target = glm::dvec3(view[3], view[4], view[5]) + origin;
     const double distance = glm::distance(eye, target);
@@ -209,7 +204,7 @@ std::string link_to(const std::string& address, const ExplorerState& state,
     const glm::dvec3 back = sight.room_from_eye[2];
     const glm::dvec3 target = to_physical(sight.middle);
     const double distance = sight.distance * sight.half / kPageHalf / seen.scale;
-    const glm::dvec3 first = first_vertex(file), to = target - first,
+    const glm::dvec3 to = target - file.info().grid.origin,
                      eye = to + glm::conjugate(seen.rotation) * back * distance;
     std::string surfaces;
     for (const interaction::Isosurface& each : state.isosurfaces)

@@ -9,6 +9,7 @@
 #include "index/file/sections/file_layout.h"
 #include "index/indexing/first_steps.h"
 #include "index/system/growing_file.h"
+#include "index/system/kept_files.h"
 #include "index/system/new_file.h"
 #include "index/system/team.h"
 
@@ -115,30 +116,6 @@ std::shared_ptr<const index::IndexFile> still_good(const fs::path& path,
         return file;
     } catch (const index::Error&) {
         return nullptr;
-    }
-}
-
-void make_room(const fs::path& folder, const fs::path& stays, std::uint64_t most_bytes) {
-    struct Kept {
-        fs::file_time_type used;
-        std::uint64_t bytes;
-        fs::path path;
-    };
-    std::error_code error;
-    std::vector<Kept> kept;
-    std::uint64_t bytes = 0;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
-        if (entry.path().extension() != ".isochron" || !entry.is_regular_file(error))
-            continue;
-        kept.push_back({entry.last_write_time(error), entry.file_size(error), entry.path()});
-        bytes += kept.back().bytes;
-    }
-    std::ranges::sort(kept, {}, &Kept::used);
-    for (const Kept& each : kept) {
-        if (bytes <= most_bytes)
-            return;
-        if (each.path != stays && fs::remove(each.path, error))
-            bytes -= each.bytes;
     }
 }
 
@@ -286,7 +263,7 @@ fs::path kept_index(const BuildArguments& given, const fs::path& folder,
     notes.insert(notes.end(), sources.notes.begin(), sources.notes.end());
     for (const std::string& note : notes)
         print_note("note: {}", note);
-    make_room(folder, path, most_bytes);
+    index::make_room(folder, ".isochron", path, {most_bytes});
     return path;
 }
 

@@ -4,6 +4,7 @@
 #include "index/error.h"
 #include "index/file/sections/file_layout.h"
 #include "index/measure/measures.h"
+#include "index/system/kept_files.h"
 #include "index/system/new_file.h"
 #include "version_number.h"
 
@@ -111,35 +112,8 @@ void KeptCurves::write(const StepCurve& curve) const {
         index::NewFile file(path);
         file.write_at(0, std::as_bytes(std::span(bytes)));
         file.commit();
-        make_room(path);
+        index::make_room(folder_, kExtension, path, {most_bytes_, most_files_});
     } catch (const index::Error&) { // it is made anew the next time
-    }
-}
-
-void KeptCurves::make_room(const fs::path& stays) const {
-    struct Kept {
-        fs::file_time_type used;
-        std::uint64_t bytes;
-        fs::path path;
-    };
-    std::error_code error;
-    std::vector<Kept> kept;
-    std::uint64_t bytes = 0;
-    for (const auto& entry : fs::directory_iterator(folder_, error)) {
-        if (entry.path().extension() != kExtension || !entry.is_regular_file(error))
-            continue;
-        kept.push_back({entry.last_write_time(error), entry.file_size(error), entry.path()});
-        bytes += kept.back().bytes;
-    }
-    std::ranges::sort(kept, {}, &Kept::used);
-    std::size_t files = kept.size();
-    for (const Kept& each : kept) {
-        if (files <= most_files_ && bytes <= most_bytes_)
-            return;
-        if (each.path != stays && fs::remove(each.path, error)) {
-            bytes -= each.bytes;
-            --files;
-        }
     }
 }
 

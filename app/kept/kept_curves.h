@@ -30,8 +30,6 @@ class KeptCurves {
     std::filesystem::path path_of(const CurveSubject& subject) const;
 
   private:
-    void make_room(const std::filesystem::path& stays) const;
-
     std::filesystem::path folder_;
     std::size_t most_files_;
     std::uint64_t most_bytes_;

@@ -18,14 +18,6 @@ namespace {
 template <class Function>
 Function* page_function(const char* name, const std::string& about) {
     try {
-        index::file_of_program("libisochron_pages.so");
-    } catch (const index::Error&) {
-        throw index::Error(fmt::format("{}: figures are drawn by cairo, which this program was "
-                                       "built without (Debian: apt install libcairo2-dev, and "
-                                       "build it again)",
-                                       about));
-    }
-    try {
         return reinterpret_cast<Function*>(index::module_symbol("isochron_pages", name));
     } catch (const index::Error& error) {
         throw index::Error(fmt::format("{}: figures are drawn by cairo (Debian: apt install "

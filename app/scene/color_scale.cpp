@@ -1,6 +1,7 @@
 // The color scale of the surfaces.
 #include "app/scene/color_scale.h"
 
+#include "app/scene/ticks.h"
 #include "index/file/color_source.h"
 #include "index/surface/cell_colors.h"
 #include "index/volume/time_unit.h"
@@ -126,6 +127,21 @@ double share_on(const ColorScale& scale, double value) {
     if (scale.logarithmic)
         return std::log(value / low) / std::log(high / low);
     return (value / 2 - low / 2) / (high / 2 - low / 2);
+}
+
+std::vector<ScaleTick> ticks_on(const ColorScale& scale, int most) {
+    const auto [low, high] = scale.range;
+    const Ticks ticks =
+        scale.logarithmic ? logarithmic_ticks(low, high, most) : nice_ticks(low, high, most);
+    std::vector<ScaleTick> all;
+    for (std::size_t i = 0; i < ticks.values.size(); ++i) {
+        const double value = ticks.values[i];
+        all.push_back(
+            {share_on(scale, value), scale.dates_of.empty()
+                                         ? tick_text(value, scale.logarithmic ? value : ticks.step)
+                                         : index::time_text(ticks.values, i, scale.dates_of)});
+    }
+    return all;
 }
 
 std::optional<std::array<double, 2>> range_of_shares(const index::Extraction& shown,

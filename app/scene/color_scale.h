@@ -31,6 +31,13 @@ struct ColorScale {
 std::vector<glm::vec3> colors_of(const ColorScale& scale);
 /// Where a value lies between the ends of the range, 0 to 1 within it.
 double share_on(const ColorScale& scale, double value);
+/// Where a round number, or a date, stands on a scale.
+struct ScaleTick {
+    double share; ///< as `share_on` has it
+    std::string words;
+};
+/// @param most of them
+std::vector<ScaleTick> ticks_on(const ColorScale& scale, int most);
 
 /// How a pass colors values. @param map of these colors, in linear light
 render::ValueColors value_colors(const ColorScale& scale, const render::Texture& map);

@@ -1,9 +1,7 @@
 // Layout of the legend.
 #include "app/scene/legend.h"
 
-#include "app/scene/ticks.h"
 #include "app/text.h"
-#include "index/volume/time_unit.h"
 #include "render/gl/srgb.h"
 
 #include <fmt/format.h>
@@ -83,18 +81,10 @@ void write_scale(const ColorScale& scale, Layout& layout) {
                     {kBarWidth, kBarHeight / kPatches},
                     glm::vec4(render::srgb_from_linear(colors[at]), 1.0f));
     }
-    const auto [low, high] = scale.range;
-    const Ticks ticks = scale.logarithmic ? logarithmic_ticks(low, high, kMostLegendTicks)
-                                          : nice_ticks(low, high, kMostLegendTicks);
-    for (std::size_t i = 0; i < ticks.values.size(); ++i) {
-        const double value = ticks.values[i];
-        const auto up = static_cast<float>(share_on(scale, value));
-        const float y = foot + kBarHeight * up;
+    for (const ScaleTick& tick : ticks_on(scale, kMostLegendTicks)) {
+        const float y = foot + kBarHeight * static_cast<float>(tick.share);
         layout.fill_rimmed({kBarWidth, y - 0.04f}, {0.4f, 0.08f}, layout.overlay().text);
-        layout.write(scale.dates_of.empty()
-                         ? tick_text(value, scale.logarithmic ? value : ticks.step)
-                         : index::time_text(ticks.values, i, scale.dates_of),
-                     {kBarWidth + 0.7f, y});
+        layout.write(tick.words, {kBarWidth + 0.7f, y});
     }
     layout.write(scale.title, {0.0f, foot + kBarHeight + 1.1f});
 }

@@ -68,7 +68,7 @@ std::vector<StepCurvePtr> CurveMaker::curves() {
     for (Job& job : jobs_) {
         if (!job.shared)
             job.shared = std::make_shared<const StepCurve>(job.curve);
-        all.push_back(*job.shared);
+        all.push_back(job.shared);
     }
     return all;
 }

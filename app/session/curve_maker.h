@@ -59,8 +59,8 @@ class CurveMaker {
     /// A subject with what is known of it; `shared` is what was given away last.
     struct Job {
         StepCurve curve;
-        bool looked = false; ///< for a kept one
-        std::optional<StepCurvePtr> shared = {};
+        bool looked = false;      ///< for a kept one
+        StepCurvePtr shared = {}; ///< null: it has changed since
     };
     /// What is done next: a step of a job, or without a step the look for a kept curve.
     struct Task {

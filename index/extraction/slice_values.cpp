@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/file/step_view.h"
+#include "index/volume/box_cut.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -96,30 +97,9 @@ std::vector<glm::dvec3> outline_of(const Grid& grid, const GridPlane& plane) {
         at += low + tiny;
     else if (std::abs(high) <= tiny)
         at += high - tiny;
-    std::vector<glm::dvec3> corners;
-    for (int axis = 0; axis < 3; ++axis)
-        for (int edge = 0; edge < 4; ++edge) {
-            glm::dvec3 from(0.0);
-            from[(axis + 1) % 3] = edge & 1 ? size[(axis + 1) % 3] : 0;
-            from[(axis + 2) % 3] = edge >> 1 ? size[(axis + 2) % 3] : 0;
-            const double before = glm::dot(slope, from) - at;
-            const double rise = slope[axis] * size[axis];
-            if ((before < 0) == (before + rise < 0))
-                continue;
-            from[axis] = -before / rise * size[axis];
-            corners.push_back(from);
-        }
-    if (corners.size() < 3)
-        return {};
-    glm::dvec3 middle(0.0);
-    for (const glm::dvec3& corner : corners)
-        middle += corner / static_cast<double>(corners.size());
-    const glm::dvec3 right = glm::normalize(corners.front() - middle);
-    const glm::dvec3 up = glm::cross(glm::normalize(slope), right);
-    std::ranges::sort(corners, {}, [&](const glm::dvec3& corner) {
-        return std::atan2(glm::dot(corner - middle, up), glm::dot(corner - middle, right));
-    });
-    return corners;
+    return in_order(
+        edges_cut(size, [&](const glm::dvec3& place) { return glm::dot(slope, place) - at; }),
+        glm::normalize(slope));
 }
 
 /// Copies the parts of runs that lie in a block of stored values.

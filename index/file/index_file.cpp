@@ -15,9 +15,6 @@
 #include <utility>
 
 namespace isochron::index {
-
-// In index_states.h, which stands on this file.
-bool has_had(const IndexFile& file, std::uint64_t content_hash, std::size_t steps);
 namespace {
 
 constexpr std::uint64_t kMaxMetadataBytes = 256 << 20;
@@ -88,9 +85,10 @@ void IndexFile::read() {
     if (const std::uint64_t size = header_.section(SectionKind::metadata).bytes;
         size > kMaxMetadataBytes)
         throw damaged(fmt::format("metadata of {} bytes", size));
-    for (const Section& each : header_.sections) // at once, but for the tree
-        if (&each != &header_.section(SectionKind::tree))
-            bytes_->expect(each.offset, each.bytes);
+    if (remote_of(*bytes_)) // one request for all but the tree
+        for (const Section& each : header_.sections)
+            if (&each != &header_.section(SectionKind::tree))
+                bytes_->expect(each.offset, each.bytes);
     const auto text = section<char>(SectionKind::metadata);
     try {
         metadata_ = metadata_from_json({text.data(), text.size()});
@@ -311,17 +309,6 @@ Error IndexFile::damaged(const std::string& what) const {
 }
 Error IndexFile::mismatch(SectionKind kind) const {
     return damaged(fmt::format("the checksum of section {} does not match", section_name(kind)));
-}
-
-std::shared_ptr<const IndexFile> IndexFile::open(const std::filesystem::path& path,
-                                                 std::uint64_t cache_bytes) {
-    const auto file = open_newest([&] { return open_bytes(path); }, cache_bytes);
-    // The file of another machine that grows goes on: its chunks stay where they are.
-    if (const auto* const remote = dynamic_cast<const RemoteSource*>(&file->bytes()))
-        remote->accept_where([hash = file->content_hash(), steps = file->info().steps()](auto now) {
-            return has_had(*IndexFile::open(std::move(now)), hash, steps);
-        });
-    return file;
 }
 
 std::shared_ptr<const IndexFile> IndexFile::open(std::unique_ptr<ByteSource> bytes,

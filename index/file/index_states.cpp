@@ -4,6 +4,7 @@
 #include "index/error.h"
 #include "index/file/sections/file_layout.h"
 #include "index/file/sections/series_content.h"
+#include "index/system/links/link_source.h"
 
 #include <fmt/format.h>
 
@@ -51,6 +52,17 @@ std::shared_ptr<const IndexFile> open_newest(const OpenBytes& open, std::uint64_
                 throw;
         }
     }
+}
+
+std::shared_ptr<const IndexFile> IndexFile::open(const std::filesystem::path& path,
+                                                 std::uint64_t cache_bytes) {
+    const auto file = open_newest([&] { return open_bytes(path); }, cache_bytes);
+    // The file of another machine that grows goes on: its chunks stay where they are.
+    if (const auto* const remote = remote_of(file->bytes()))
+        remote->accept_where([hash = file->content_hash(), steps = file->info().steps()](auto now) {
+            return has_had(*IndexFile::open(std::move(now)), hash, steps);
+        });
+    return file;
 }
 
 bool has_had(const IndexFile& file, std::uint64_t content_hash, std::size_t steps) {

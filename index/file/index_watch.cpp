@@ -53,7 +53,7 @@ std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const 
 }
 
 std::shared_ptr<const IndexFile> GrowthLook::look(const IndexFile& known) {
-    if (const auto* const remote = dynamic_cast<const RemoteSource*>(&known.bytes()))
+    if (const RemoteSource* const remote = remote_of(known.bytes()))
         try {
             return remote->may_have_changed() ? grown(path_, known) : nullptr;
         } catch (const std::exception&) { // the server cannot be reached, or the process ends
@@ -87,8 +87,8 @@ std::shared_ptr<const IndexFile> IndexWatch::take() {
 
 void IndexWatch::watch(const std::stop_token& stop) {
     constexpr std::chrono::milliseconds kLongestOfServer{4000};
-    const bool remote = dynamic_cast<const RemoteSource*>(&known_->bytes()) != nullptr;
-    const std::chrono::milliseconds longest = remote ? kLongestOfServer : kLongest;
+    const std::chrono::milliseconds longest =
+        remote_of(known_->bytes()) ? kLongestOfServer : kLongest;
     std::chrono::milliseconds period = kPeriod;
     std::unique_lock lock(mutex_);
     while (!changed_.wait_for(lock, stop, period, [&] { return stop.stop_requested(); })) {

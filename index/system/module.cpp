@@ -34,6 +34,7 @@ constexpr std::array kComponents{Component{"isochron-reader-vtk", "isochron-read
                                  Component{"isochron-generate", "isochron-generate"}};
 /// Files that are built where these packages are.
 constexpr std::array kBuiltWith{Component{"libisochron_links.so", "libcurl4-gnutls-dev"},
+                                Component{"libisochron_pages.so", "libcairo2-dev"},
                                 Component{"libisochron_site.so", "libmicrohttpd-dev"}};
 
 ProgramFolder& folder_that_was_set() {

@@ -1,13 +1,14 @@
 // Planes that hands move.
 #include "interaction/tools/plane_hold.h"
 
+#include "index/volume/box_cut.h"
 #include "interaction/navigation/navigation.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace isochron::interaction {
 namespace {
@@ -141,32 +142,13 @@ Plane PlaneHold::update(std::span<const ToolHand> hands, const Plane& plane,
 }
 
 std::vector<glm::dvec3> outline(const Plane& plane, const DataFrame& data) {
-    std::vector<glm::dvec3> corners;
-    // The corners are where the plane crosses the twelve edges of the box.
-    for (int axis = 0; axis < 3; ++axis)
-        for (int edge = 0; edge < 4; ++edge) {
-            glm::dvec3 from(0.0), to;
-            from[(axis + 1) % 3] = edge & 1;
-            from[(axis + 2) % 3] = edge >> 1;
-            to = from;
-            to[axis] = 1;
-            const glm::dvec3 a = data.at(from), b = data.at(to);
-            const double low = glm::dot(a - plane.point, plane.normal);
-            const double high = glm::dot(b - plane.point, plane.normal);
-            if ((low < 0) != (high < 0))
-                corners.push_back(a + low / (low - high) * (b - a));
-        }
-    if (corners.size() < 3)
-        return {};
-    glm::dvec3 middle(0.0);
-    for (const glm::dvec3& corner : corners)
-        middle += corner / static_cast<double>(corners.size());
-    const glm::dvec3 right = glm::normalize(corners.front() - middle);
-    const glm::dvec3 up = glm::cross(plane.normal, right);
-    std::ranges::sort(corners, {}, [&](const glm::dvec3& corner) {
-        return std::atan2(glm::dot(corner - middle, up), glm::dot(corner - middle, right));
-    });
-    return corners;
+    std::vector<glm::dvec3> corners =
+        index::edges_cut(glm::dvec3(1.0), [&](const glm::dvec3& in_box) {
+            return glm::dot(data.at(in_box) - plane.point, plane.normal);
+        });
+    for (glm::dvec3& corner : corners)
+        corner = data.at(corner);
+    return index::in_order(std::move(corners), plane.normal);
 }
 
 std::vector<ToolLine> outline_lines(const Plane& plane, const DataFrame& data,

@@ -61,14 +61,10 @@ std::vector<ToolHand> ToolBox::hands_with(ToolKind kind, const Reading& now,
 }
 
 bool ToolBox::takes_drag(const Reading& now, const ControlContext& context) const {
-    const auto& tool = tools_[static_cast<std::size_t>(context.settings.tools.mouse)];
-    const Settings& settings = context.settings;
-    const ToolKind held = settings.tools.mouse;
-    const bool moves_planes =
-        (held == ToolKind::clip && (settings.clip.shown || settings.clip_box.shown)) ||
-        (held == ToolKind::slice && settings.slices.shown());
-    const bool may_begin = moves_planes && left_down(now) && !left_before(now);
-    return tool->takes_drag() || may_begin;
+    const ToolRow& row = tool_row(context.settings.tools.mouse);
+    const bool may_begin =
+        row.held && row.made(context.settings) && left_down(now) && !left_before(now);
+    return tools_[static_cast<std::size_t>(row.kind)]->takes_drag() || may_begin;
 }
 
 ToolBox::Outcome ToolBox::update(const Reading& now, const ToolContext& context) {

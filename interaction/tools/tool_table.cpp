@@ -54,6 +54,7 @@ const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table() {
              [](const Settings& settings) {
                  return settings.clip.shown || settings.clip_box.shown;
              },
+         .held = true,
          .remove =
              [](Commands& commands) {
                  commands.clip = ClipPlane{};
@@ -87,6 +88,7 @@ const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table() {
          .make = made<SliceTool>,
          .makes = "slice",
          .made = [](const Settings& settings) { return settings.slices.shown(); },
+         .held = true,
          .remove = [](Commands& commands) { commands.slices = Slices{}; },
          .draw = draw_slices},
     }};

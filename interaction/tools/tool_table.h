@@ -28,6 +28,7 @@ struct ToolRow {
     // What the tool leaves in the data; null where it does nothing of the kind.
     std::string_view makes = {};             ///< what that is called: `ruler`
     bool (*made)(const Settings&) = nullptr; ///< whether it is there
+    bool held = false;                       ///< hands hold that, and move it
     void (*remove)(Commands&);               ///< what Delete does while the mouse holds the tool
     std::string (*line)(const Settings&) = nullptr; ///< said on the panel, beside its removal
     /// Also while no hand holds the tool.

@@ -26,14 +26,6 @@ Number parse(std::string_view word, const std::string& key, const std::string& f
 
 } // namespace
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlanks = " \t\r\n";
-    const std::size_t begin = text.find_first_not_of(kBlanks);
-    if (begin == text.npos)
-        return {};
-    return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
-
 std::vector<std::string> words_of(std::string_view text) {
     std::istringstream in{std::string(text)};
     std::vector<std::string> words;

@@ -1,6 +1,8 @@
 // Words, numbers and lines of the text headers of BOV, MetaImage and NRRD.
 #pragma once
 
+#include "index/trimmed.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,7 +12,6 @@
 
 namespace isochron::index {
 
-std::string_view trimmed(std::string_view text);
 std::vector<std::string> words_of(std::string_view text);
 
 /// The line at a place, without its end; moves the place behind it.

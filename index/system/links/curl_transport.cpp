@@ -1,5 +1,6 @@
 // Asks web servers by libcurl, on a thread of its own.
 #include "index/error.h"
+#include "index/lower_case.h"
 #include "index/system/links/http_transport.h"
 
 #include <curl/curl.h>
@@ -53,11 +54,9 @@ std::size_t take_head(char* text, std::size_t, std::size_t bytes, void* to) {
     const std::size_t colon = line.find(':');
     if (colon == line.npos)
         return bytes;
-    std::string name(line.substr(0, colon));
-    std::ranges::transform(name, name.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string name = lower_case(line.substr(0, colon));
     line.remove_prefix(std::min(line.size(), line.find_first_not_of(" \t", colon + 1)));
-    asked.answer.fields.emplace_back(std::move(name), line);
+    asked.answer.fields.emplace_back(name, line);
     return bytes;
 }
 
@@ -97,8 +96,6 @@ class CurlTransport final : public HttpTransport {
     }
 
     void send(HttpRequest request, std::function<void(HttpAnswer)> done) override {
-        if (::getpid() != owner_)
-            return done({.failure = "it was opened before this process was forked: open it again"});
         const Clock::time_point begins = Clock::now() + request.after;
         {
             const std::lock_guard lock(mutex_);
@@ -223,7 +220,6 @@ class CurlTransport final : public HttpTransport {
         done(std::move(given));
     }
 
-    const pid_t owner_ = ::getpid();
     CURLM* multi_ = nullptr;
     std::mutex mutex_;
     std::list<Asked> fresh_; ///< guarded by the mutex

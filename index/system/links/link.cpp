@@ -2,6 +2,7 @@
 #include "index/system/links/link.h"
 
 #include "index/error.h"
+#include "index/lower_case.h"
 
 #include <fmt/format.h>
 
@@ -15,15 +16,6 @@
 
 namespace isochron::index {
 namespace {
-
-constexpr std::string_view kSchemes[] = {"http://", "https://"};
-
-bool begins_with(std::string_view text, std::string_view start) {
-    return text.size() >= start.size() &&
-           std::equal(start.begin(), start.end(), text.begin(), [](char a, char b) {
-               return a == std::tolower(static_cast<unsigned char>(b));
-           });
-}
 
 int digit_of(char c) {
     return c >= '0' && c <= '9'                     ? c - '0'
@@ -88,8 +80,9 @@ KnownLinks& known_links() {
 } // namespace
 
 bool is_link(std::string_view name) {
-    return std::ranges::any_of(kSchemes,
-                               [&](std::string_view scheme) { return begins_with(name, scheme); });
+    constexpr std::string_view kSafe = "https://";
+    const std::string scheme = lower_case(name.substr(0, kSafe.size()));
+    return scheme.starts_with("http://") || scheme == kSafe;
 }
 
 bool is_plain_name(std::string_view name) {

@@ -24,6 +24,8 @@
 #include <utility>
 #include <vector>
 
+#include <unistd.h>
+
 namespace isochron::index {
 namespace {
 
@@ -93,7 +95,7 @@ class Content : public std::enable_shared_from_this<Content> {
     std::uint64_t size() const { return size_; }
 
     void expect(std::uint64_t offset, std::uint64_t bytes) {
-        if (offset >= size_ || bytes == 0)
+        if (offset >= size_ || bytes == 0 || is_forked())
             return;
         const std::uint64_t end = (std::min(size_ - offset, bytes) + offset - 1) / kBlock + 1;
         std::unique_lock lock(mutex_);
@@ -107,6 +109,7 @@ class Content : public std::enable_shared_from_this<Content> {
 
     /// @return false: the file is another one now @throws Error, and what ends the wait
     bool read(std::uint64_t offset, std::span<std::byte> out) {
+        expect_own_process();
         constexpr int kMostTimes = 100; // others may crowd out what came before it is taken
         std::vector<std::uint64_t> missing;
         const std::uint64_t end = offset + out.size();
@@ -150,9 +153,10 @@ class Content : public std::enable_shared_from_this<Content> {
 
     /// Whether another content lies there, or may. @throws Error
     bool may_have_changed() {
-        HttpRequest request = request_of({{0, 1}}, 206, 1, 1);
+        expect_own_process();
         if (tag_.empty())
             return true;
+        HttpRequest request = request_of({{0, 1}}, 206, 1, 1);
         std::erase_if(request.headers,
                       [](const std::string& header) { return header.starts_with("If-"); });
         request.headers.push_back("If-None-Match: " + tag_);
@@ -227,6 +231,13 @@ class Content : public std::enable_shared_from_this<Content> {
         std::vector<LinkRange> ranges;
         int time = 1;
     };
+
+    /// A forked process has neither the thread that asks nor the answers that are under way.
+    bool is_forked() const { return ::getpid() != owner_; }
+    void expect_own_process() const {
+        if (is_forked())
+            fail("it was opened before this process was forked: open it again");
+    }
 
     static bool may_pass(const HttpAnswer& answer) {
         return answer.failure.empty()
@@ -464,6 +475,7 @@ class Content : public std::enable_shared_from_this<Content> {
     const std::shared_ptr<HttpTransport> transport_;
     const bool keep_;
     const std::string authorization_;
+    const pid_t owner_ = ::getpid();
     std::uint64_t size_ = 0;
     std::string tag_;   ///< a strong one; empty: the server names none
     std::string first_; ///< the first block, as it was at the opening
@@ -594,6 +606,10 @@ bool is_page(const std::string& address) {
 std::shared_ptr<HttpTransport> http_transport() {
     return static_cast<const LinksModule*>(module_symbol("isochron_links", "isochron_links_module"))
         ->transport();
+}
+
+const RemoteSource* remote_of(const ByteSource& source) {
+    return dynamic_cast<const RemoteSource*>(&source);
 }
 
 std::unique_ptr<ByteSource> open_link(const std::string& address,

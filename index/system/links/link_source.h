@@ -21,8 +21,11 @@ class RemoteSource : public ByteSource {
     virtual bool may_have_changed() const = 0;
 };
 
-/// Opens the file of a link, or the first index of the page that it leads to. What was read is kept in memory, and on disk
-/// where the server names the content by a strong ETag.
+/// The source as one of another machine; null: it is of this one.
+const RemoteSource* remote_of(const ByteSource& source);
+
+/// Opens the file of a link, or the first index of the page that it leads to. What was read is kept in
+/// memory, and on disk where the server names the content by a strong ETag.
 /// @param address as `address_of` gives it
 /// @throws Error in one line: no such file, no server, no answer to ranges, ...
 std::unique_ptr<ByteSource> open_link(const std::string& address);

@@ -1,28 +1,16 @@
 // Takes answers to requests for ranges apart.
 #include "index/system/links/range_answer.h"
 
+#include "index/lower_case.h"
+#include "index/trimmed.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 
 namespace isochron::index {
 namespace {
-
-bool same_word(std::string_view a, std::string_view b) {
-    return std::ranges::equal(
-        a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
-std::string_view trimmed(std::string_view text) {
-    const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
-    while (!text.empty() && blank(text.front()))
-        text.remove_prefix(1);
-    while (!text.empty() && blank(text.back()))
-        text.remove_suffix(1);
-    return text;
-}
 
 /// A number without a sign, which a file's size can be.
 std::optional<std::uint64_t> number_in(std::string_view text) {
@@ -47,7 +35,7 @@ std::string range_header(std::span<const LinkRange> ranges) {
 
 std::optional<ContentRange> content_range(std::string_view header) {
     header = trimmed(header);
-    if (header.size() < 6 || !same_word(header.substr(0, 6), "bytes "))
+    if (header.size() < 6 || lower_case(header.substr(0, 6)) != "bytes ")
         return std::nullopt;
     header.remove_prefix(6);
     const std::size_t dash = header.find('-'), slash = header.find('/');
@@ -63,12 +51,13 @@ std::optional<ContentRange> content_range(std::string_view header) {
 
 std::string boundary_of(std::string_view content_type) {
     constexpr std::size_t kLongest = 200;
-    if (!same_word(trimmed(content_type.substr(0, content_type.find(';'))), "multipart/byteranges"))
+    if (lower_case(trimmed(content_type.substr(0, content_type.find(';')))) !=
+        "multipart/byteranges")
         return {};
     while (content_type.find(';') != content_type.npos) {
         content_type.remove_prefix(content_type.find(';') + 1);
         std::string_view word = trimmed(content_type.substr(0, content_type.find(';')));
-        if (word.size() < 9 || !same_word(word.substr(0, 9), "boundary="))
+        if (word.size() < 9 || lower_case(word.substr(0, 9)) != "boundary=")
             continue;
         word.remove_prefix(9);
         if (word.size() >= 2 && word.front() == '"' && word.back() == '"')
@@ -92,7 +81,8 @@ std::vector<AnswerPart> parts_of(std::string_view body, std::string_view boundar
             const std::string_view field = head.substr(0, head.find("\r\n"));
             head.remove_prefix(std::min(head.size(), field.size() + 2));
             const std::size_t colon = field.find(':');
-            if (colon != field.npos && same_word(trimmed(field.substr(0, colon)), "content-range"))
+            if (colon != field.npos &&
+                lower_case(trimmed(field.substr(0, colon))) == "content-range")
                 where = content_range(field.substr(colon + 1));
         }
         at = end + 4;

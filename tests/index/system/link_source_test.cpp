@@ -14,6 +14,9 @@
 #include <random>
 #include <thread>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 namespace isochron::index {
 namespace {
 
@@ -153,6 +156,29 @@ TEST(LinkSource, GivesTheBytesOfTheFileOrOneLine) {
     }
     EXPECT_GT(right, 1000);
     EXPECT_GT(refused, 20);
+}
+
+TEST(LinkSource, SaysInAForkedProcessThatItMustBeOpenedAgain) {
+    const auto transport = std::make_shared<ByChance>(std::string(1'000'000, 'x'), 1, 0);
+    const auto source = open_link("http://h/a.isochron", transport, false);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        int status = 1;
+        try {
+            std::byte one[1];
+            source->expect(500'000, 1);
+            source->read(500'000, one);
+        } catch (const Error& error) {
+            status = std::string(error.what()).find("forked: open it again") == std::string::npos;
+        }
+        ::_exit(status);
+    }
+    int status = -1;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+    std::byte one[1];
+    source->read(500'000, one); // the process that has opened it goes on
+    EXPECT_EQ(one[0], std::byte{'x'});
 }
 
 } // namespace

@@ -184,6 +184,36 @@ void each_field(Visit&& visit, Records&... r) {
     each_field(visit, r.point...);
 }
 
+template <class Visit, Of<PlacedPiece>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"surface", 0, kMostIsosurfaces - 1}, r.surface...);
+    visit(Field{"place"}, r.place...);
+}
+
+template <class Visit, Of<ShownPieces>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{.key = "only", .most = kMostPlacedPieces}, r.only...);
+    visit(Field{.key = "hidden", .most = kMostPlacedPieces}, r.hidden...);
+    visit(Field{"dust"}, r.dust...);
+}
+
+template <class Visit, Of<Ghosts>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"earlier", 0, kMostGhosts}, r.earlier...);
+    visit(Field{"later", 0, kMostGhosts}, r.later...);
+    visit(Field{"every", 1, kWidestGhosts}, r.every...);
+    visit(Field{"opacity", 0, 1}, r.opacity...);
+}
+
+template <class Visit, Of<Model>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{.key = "path", .most = kLongestArrayName}, r.path...);
+    visit(Field{"shown"}, r.shown...);
+    visit(Field{"color", 0, 1}, r.color...);
+    visit(Field{"opacity", 0, 1}, r.opacity...);
+    visit(Field{"lines"}, r.lines...);
+}
+
 template <class Visit, Of<Ruler>... Records>
 void each_field(Visit&& visit, Records&... r) {
     visit(Field{.key = "places", .most = kMostRulerPlaces}, r.places...);
@@ -221,6 +251,12 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"ruler"}, r.ruler...);
     visit(Field{"slices"}, r.slices...);
     visit(Field{"clip_box"}, r.clip_box...);
+    visit(Field{"pieces"}, r.pieces...);
+    visit(Field{"ghosts"}, r.ghosts...);
+    visit(Field{.key = "models", .most = kMostModels}, r.models...);
+    visit(Field{.key = "name", .may_lack = true}, r.name...);
+    visit(Field{.key = "text", .most = kLongestStoryText, .may_lack = true}, r.text...);
+    visit(Field{"place"}, r.place...);
 }
 
 /// The settings, the isovalue of the picked surface, and the commands that happen once.

@@ -317,6 +317,47 @@ struct Slices {
     bool hides_surfaces() const { return alone && shown(); }
 };
 
+inline constexpr std::size_t kMostPlacedPieces = 64;
+/// A connected piece of a surface: whatever the step and the isovalue are, the one that comes nearest
+/// to a place.
+struct PlacedPiece {
+    std::uint32_t surface = 0; ///< counted from 0
+    glm::dvec3 place{0.0};     ///< physical space
+    bool operator==(const PlacedPiece&) const = default;
+};
+/// Which pieces of the surfaces are shown; without any of it, all.
+struct ShownPieces {
+    std::vector<PlacedPiece> only;   ///< where a surface has one here, its others are hidden
+    std::vector<PlacedPiece> hidden; ///< both lists: at most kMostPlacedPieces
+    std::uint32_t dust = 0;          ///< pieces of fewer active cells are hidden
+    bool operator==(const ShownPieces&) const = default;
+
+    bool all() const { return only.empty() && hidden.empty() && dust == 0; }
+};
+
+inline constexpr std::uint32_t kMostGhosts = 4;        ///< in each direction of time
+inline constexpr std::uint32_t kWidestGhosts = 100000; ///< [step] from one to the next
+/// Surfaces of earlier and later steps, translucent, beside those that are shown.
+struct Ghosts {
+    std::uint32_t earlier = 0, later = 0; ///< how many, at most kMostGhosts
+    std::uint32_t every = 1;              ///< steps from one to the next, 1 to kWidestGhosts
+    float opacity = 0.25f;                ///< 0 to 1
+    bool operator==(const Ghosts&) const = default;
+
+    bool shown() const { return earlier + later > 0 && opacity > 0; }
+};
+
+inline constexpr std::size_t kMostModels = 16;
+/// Triangles of a file, in the data's coordinates, shown beside the surfaces.
+struct Model {
+    std::string path;
+    bool shown = true;
+    glm::vec3 color{0.72f, 0.74f, 0.78f}; ///< sRGB, 0 to 1
+    float opacity = 1.0f;                 ///< 0 to 1
+    bool lines = false;                   ///< the edges of the triangles are drawn, not their faces
+    bool operator==(const Model&) const = default;
+};
+
 inline constexpr std::size_t kMostRulerPlaces = 2;
 /// Places between which a distance is measured, in physical space.
 struct Ruler {
@@ -343,9 +384,11 @@ inline constexpr std::array<std::string_view, 2> kNames<KeyPace>{"eased", "even"
 inline constexpr std::size_t kMostKeyFrames = 128;
 inline constexpr double kLongestFilm = 3600.0;      ///< [s]
 inline constexpr double kShortestMove = 1.0 / 1024; ///< [s] from the rest at a key to the next key
+inline constexpr std::size_t kLongestStoryText = 2000; ///< [byte] of a key
 
-/// A key frame of a film: what is seen at one of its times. A setting that a key does not hold goes
-/// from the key before to the key behind, or stays as it is.
+/// A key frame of a film, which is also a step of the story that its keys tell: what is seen at one
+/// of the film's times. A setting that a key does not hold goes from the key before to the key
+/// behind, or stays as it is.
 struct KeyFrame {
     double time = 0;                        ///< [s] of the film
     double hold = 0;                        ///< [s] that the film rests here
@@ -367,6 +410,12 @@ struct KeyFrame {
     std::optional<Ruler> ruler = {};
     std::optional<Slices> slices = {};
     std::optional<ClipBox> clip_box = {};
+    std::optional<ShownPieces> pieces = {};
+    std::optional<Ghosts> ghosts = {};
+    std::optional<std::vector<Model>> models = {};
+    std::string name = {};                ///< empty: its number
+    std::string text = {};                ///< what the story says here
+    std::optional<glm::dvec3> place = {}; ///< what the text is about, physical space
     bool operator==(const KeyFrame&) const = default;
 };
 

@@ -78,6 +78,10 @@ struct SettingsOf {
     Holds<Slices> slices{};
     Holds<ClipBox> clip_box{};
     Holds<std::vector<NamedMark>> marks{}; ///< all that were kept, at most kMostMarks
+    Holds<ShownPieces> pieces{};
+    Holds<Ghosts> ghosts{};
+    Holds<std::vector<Model>> models{}; ///< at most kMostModels
+    Holds<std::uint32_t> story{};       ///< the key that is told, counted from 1; 0: none
 
     bool operator==(const SettingsOf&) const = default;
 };
@@ -123,6 +127,10 @@ constexpr void each_setting(Visit&& visit, Records&... r) {
     visit(Field{.key = "clip_box", .dragged = true}, r.clip_box...);
     visit(Field{.key = "marks", .most = kMostMarks}, r.marks...);
     visit(Field{.key = "curves", .undone = false}, r.curves...);
+    visit(Field{.key = "pieces", .dragged = true}, r.pieces...);
+    visit(Field{.key = "ghosts", .dragged = true}, r.ghosts...);
+    visit(Field{.key = "models", .most = kMostModels, .dragged = true}, r.models...);
+    visit(Field{.key = "story", .low = 0, .high = kMostKeyFrames, .undone = false}, r.story...);
 }
 
 template <class T>

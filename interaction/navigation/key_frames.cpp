@@ -28,6 +28,9 @@ void each_held(Visit&& visit, Records&... r) {
     visit(r.ruler...);
     visit(r.slices...);
     visit(r.clip_box...);
+    visit(r.pieces...);
+    visit(r.ghosts...);
+    visit(r.models...);
 }
 
 /// The view of a key for a viewer who stands elsewhere and has turned.

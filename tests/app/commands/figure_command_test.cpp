@@ -119,8 +119,9 @@ TEST_F(FigureCommand, OfPixelsHasAsManyAsItsResolutionSays) {
 }
 
 TEST_F(FigureCommand, IsMadeAgainAndSaysWhatDiffers) {
+    folder_.write("f.toml", "width = 40\ndpi = 72\n[[panels]]\nindex = \"sphere.isochron\"\n");
+    ASSERT_EQ(isochron({"figure", "f.toml", "-o", "f.pdf"}).status, 0);
     for (const char* file : {"f.pdf", "f.png"}) {
-        ASSERT_EQ(isochron({"figure", "f.toml", "-o", file}).status, 0);
         EXPECT_EQ(isochron({"figure", "f.toml", "-o", file}).status, 0) << "replaces its own";
         const ChildResult again = isochron({"reproduce", file});
         EXPECT_EQ(again.status, 0) << again.err;

@@ -9,6 +9,7 @@
 #include "version_number.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
@@ -44,6 +45,9 @@ std::string key_of(const CurveSubject& subject) {
     key += fmt::format("{:a}", subject.isovalue);
     if (subject.clip)
         key += ";clip " + text_of(subject.clip->point) + ' ' + text_of(subject.clip->normal);
+    if (subject.box)
+        key += fmt::format(";box {} to {}", fmt::join(subject.box->first, " "),
+                           fmt::join(subject.box->last, " "));
     if (subject.on_surface) {
         const index::ColorSource other(file, *subject.on_surface);
         key += fmt::format(";on {}", other.array().array);

@@ -218,6 +218,7 @@ CurveMaker::Measure measured_in_index() {
         index::MeasureWishes wishes{.array = subject.on_surface};
         if (subject.clip)
             wishes.clip = index::CutPlane{subject.clip->point, subject.clip->normal};
+        wishes.box = subject.box;
         auto found = of->measures->measure({index::Instant(step), subject.isovalue}, wishes, stop);
         return found ? std::optional(std::move(found->values)) : std::nullopt;
     };

@@ -10,6 +10,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -26,6 +29,21 @@ std::size_t number_of(const CurveSubject& subject, std::vector<CurveSubject>& su
         return static_cast<std::size_t>(there - subjects.begin());
     subjects.push_back(subject);
     return subjects.size() - 1;
+}
+
+/// The whole cells in a box, between vertices of the grid; nothing if it has none.
+std::optional<index::VertexBox> cells_in(const interaction::ClipBox& box, const index::Grid& grid) {
+    index::VertexBox cells;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto at = static_cast<glm::length_t>(axis);
+        const double first = std::max(std::ceil(box.low[at]), 0.0);
+        const double last = std::min(std::floor(box.high[at]), grid.vertices[axis] - 1.0);
+        if (!(first < last))
+            return std::nullopt;
+        cells.first[axis] = static_cast<std::uint32_t>(first);
+        cells.last[axis] = static_cast<std::uint32_t>(last);
+    }
+    return cells;
 }
 
 /// Writes a table under a name that no file has. @return what the user is told
@@ -78,12 +96,14 @@ void SessionCurves::update(const Frame& frame, const ShownArrays& arrays,
         CurveSubject subject{.array = array};
         if (state.clip.shown)
             subject.clip = state.clip;
+        if (state.clip_box.shown)
+            subject.box = cells_in(state.clip_box, array->info().grid);
         if (state.coloring.by == interaction::ColorBy::value &&
             index::ColorSource::count(*array) > 0)
             subject.on_surface = color_array(state, *arrays.file());
         for (std::size_t i = 0; i < state.isosurfaces.size(); ++i) {
             subject.isovalue = state.isosurfaces[i].isovalue;
-            if (state.isosurfaces[i].opacity > 0)
+            if (state.isosurfaces[i].opacity > 0 && (subject.box || !state.clip_box.shown))
                 of_surface_[i] = number_of(subject, wanted.subjects);
         }
         if (const auto place = marked_place(state))

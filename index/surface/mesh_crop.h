@@ -12,6 +12,7 @@ namespace isochron::index {
 /// A box of vertices of the grid, both ends included.
 struct VertexBox {
     std::array<std::uint32_t, 3> first{}, last{}; ///< x, y, z
+    bool operator==(const VertexBox&) const = default;
 };
 
 bool is_within(const MeshVertex& vertex, const VertexBox& box);

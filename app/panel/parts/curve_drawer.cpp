@@ -118,6 +118,12 @@ void choose(const PanelModel& model, const Choice& choice, Commands& commands) {
     commands.curves = drawer;
 }
 
+/// What `isochron measure --crop` has for the box.
+std::string box_words(const index::VertexBox& box) {
+    return fmt::format("in the box: {}:{},{}:{},{}:{}", box.first[0], box.last[0], box.first[1],
+                       box.last[1], box.first[2], box.last[2]);
+}
+
 /// How far the curves are, or why they are not whole.
 void state_of(const PanelModel& model, const Shown& shown, float width) {
     std::size_t steps = 0, left = 0;
@@ -138,7 +144,11 @@ void state_of(const PanelModel& model, const Shown& shown, float width) {
     else if (left > 0)
         fitted_text(fmt::format("{} of {} steps", steps - left, steps), width, color_of(Ink::dim));
     else if (shown.surfaces.empty() && !shown.is_mark())
-        fitted_text("no surface is shown", width, color_of(Ink::dim));
+        fitted_text(model.asked.clip_box.shown ? "no whole cell in the box" : "no surface is shown",
+                    width, color_of(Ink::dim));
+    else if (!shown.is_mark() && shown.surfaces.front().curve->subject.box)
+        fitted_text(box_words(*shown.surfaces.front().curve->subject.box), width,
+                    color_of(Ink::dim));
     else
         text("");
 }

@@ -178,13 +178,17 @@ TEST_F(CurveMakerTest, HasTheNumbersOfIsochronMeasure) {
     CurveSubject cut = surface(0.05);
     cut.clip = interaction::ClipPlane{true, {4, 3, 3}, {0.6, 0, 0.8}};
     const CurveSubject place{.array = file_, .place = glm::dvec3(3, 4, 2)};
-    maker.update(all_of({surface(0.05), cut, surface(-0.1), place}, 2));
+    CurveSubject boxed = surface(-0.1);
+    boxed.box = index::VertexBox{{1, 2, 0}, {6, 7, 4}};
+    maker.update(all_of({surface(0.05), cut, surface(-0.1), place, boxed}, 2));
     maker.finish();
     const std::vector<StepCurvePtr> curves = maker.curves();
     index::SurfaceMeasures measuring(file_);
     for (std::uint32_t step = 0; step < kSteps; ++step)
-        for (const StepCurvePtr& curve : {curves[0], curves[1], curves[2]}) {
+        for (const StepCurvePtr& curve : {curves[0], curves[1], curves[2], curves[4]}) {
             index::MeasureWishes wishes;
+            if (curve == curves[4])
+                wishes.box = index::VertexBox{{1, 2, 0}, {6, 7, 4}};
             if (curve->subject.clip)
                 wishes.clip = {{4, 3, 3}, {0.6, 0, 0.8}};
             const auto expected =
@@ -198,6 +202,7 @@ TEST_F(CurveMakerTest, HasTheNumbersOfIsochronMeasure) {
     const auto stored = file_->values().step<float>(5);
     EXPECT_EQ(curves[3]->values[0][5], double{stored[3 + 9 * (4 + 8 * 2)]});
     EXPECT_NE(curves[0]->values[1], curves[1]->values[1]) << "the clip plane cuts it";
+    EXPECT_NE(curves[2]->values[1], curves[4]->values[1]) << "the box leaves some out";
 
     std::istringstream table(csv_of({curves[0], curves[2]}));
     std::string line;

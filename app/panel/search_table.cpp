@@ -7,6 +7,7 @@
 #include "app/panel/parts/color_section.h"
 #include "app/panel/parts/curve_drawer.h"
 #include "app/panel/parts/sections.h"
+#include "app/panel/parts/slice_lines.h"
 #include "app/panel/parts/surfaces_section.h"
 #include "app/panel/parts/time_track.h"
 #include "app/text.h"
@@ -210,6 +211,7 @@ constexpr OtherNames kOtherNames[] = {
     {"slice_forward", "next slice, move slice, scroll slices"},
     {"slice_back", "previous slice, move slice, scroll slices"},
     {"slices_alone", "hide surfaces, only slice, show slice only, hide isosurface"},
+    {"flat_slice", "2d view, 2d slice, flat view, face on, image view, plan view, look at slice"},
     {"remove_slices", "no slice, remove slice, delete slice, hide slice"},
     {"clip_tool", "clipping plane, cut plane, cross section, section, crop, cut, cutting plane, "
                   "cutaway, clip box, region of interest, roi, subvolume, "
@@ -731,6 +733,10 @@ void add_tools(Lines& lines) {
     remove("remove_slices", "remove the slices", asked.slices.shown(), &Commands::slices,
            interaction::Slices{});
     const interaction::Slices& slices = asked.slices;
+    if (slices.shown())
+        lines.add({.name = "flat_slice",
+                   .words = "flat: look straight at the slice",
+                   .commands = flat_view(lines.model())});
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
     for (int axis = 0; axis < 3; ++axis) {
         const char* const name = kAxes[static_cast<std::size_t>(axis)];

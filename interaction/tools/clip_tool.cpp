@@ -27,7 +27,7 @@ std::optional<ClipBox> ClipTool::moved_box(std::span<const ToolHand> hands,
     if (!face_)
         return std::nullopt;
     const Plane plane = plane_of(*face_, box, now.session.data);
-    return with_face(box, *face_, hold_.update(hands, plane, now), now.session.data);
+    return with_face(box, *face_, hold_.update(hands, plane, now, false), now.session.data);
 }
 
 ToolOutcome ClipTool::update(std::span<const ToolHand> hands, const ToolContext& now) {

@@ -4,9 +4,12 @@
 #include "index/volume/box_cut.h"
 #include "interaction/navigation/navigation.h"
 
+#define GLM_ENABLE_EXPERIMENTAL
 #include <glm/geometric.hpp>
+#include <glm/gtx/quaternion.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -17,6 +20,7 @@ namespace {
 constexpr double kBeside = 0.05;
 constexpr double kFaces = 0.12; ///< squared sine below which a plane faces the user: 20 degrees
 constexpr double kAlong = 0.02; ///< squared sine below which a ray runs along the normal
+constexpr double kRim = 0.85; ///< share of the outline, from its middle, outside which it is turned
 
 /// Distance along a line, from `at`, to its point that is nearest to a ray; none if the ray runs
 /// nearly along the line.
@@ -44,6 +48,43 @@ double moved_along(const glm::dvec3& at, const glm::dvec3& direction, const Pose
     const glm::dvec3 there = glm::dvec3(ray.position) + away / glm::dot(now, way) * now;
     const double pushed = glm::dot(there - at, up);
     return glm::dot(direction, way) > 0 ? pushed : -pushed;
+}
+
+/// The middle of a plane's outline, in the room, if a point of the plane is near to the outline.
+std::optional<glm::dvec3> middle_for_rim(const glm::dvec3& at, const Plane& plane,
+                                         const ToolContext& now) {
+    std::vector<glm::dvec3> corners = outline(plane, now.session.data);
+    if (corners.empty())
+        return std::nullopt;
+    glm::dvec3 middle(0.0);
+    for (glm::dvec3& corner : corners) {
+        corner = transform(now.room_from_physical, corner);
+        middle += corner / static_cast<double>(corners.size());
+    }
+    const glm::dvec3 normal = normal_in_room(now.room_from_physical, plane.normal);
+    double share = 0; // of the way from the middle to the outline, through the point
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec3& from = corners[i];
+        const glm::dvec3 side = glm::cross(corners[(i + 1) % corners.size()] - from, normal);
+        const double whole = glm::dot(middle - from, side);
+        if (whole != 0)
+            share = std::max(share, 1 - glm::dot(at - from, side) / whole);
+    }
+    return share > kRim ? std::optional(middle) : std::nullopt;
+}
+
+/// The way from a sphere's middle to where a ray meets the sphere first, or comes nearest to it.
+glm::dvec3 on_sphere(const glm::dvec3& middle, double radius, const Pose& ray) {
+    const glm::dvec3 way = ahead_of(ray), to = middle - glm::dvec3(ray.position);
+    const double along = glm::dot(to, way);
+    const glm::dvec3 beside = along * way - to;
+    const double within = radius * radius - glm::dot(beside, beside);
+    return within > 0 ? beside - std::sqrt(within) * way : beside;
+}
+
+/// The rotation that takes one direction to another one the shortest way.
+glm::dquat turn_between(const glm::dvec3& from, const glm::dvec3& to) {
+    return glm::rotation(glm::normalize(from), glm::normalize(to));
 }
 
 } // namespace
@@ -98,16 +139,32 @@ Plane PlaneHold::moved_with(const ToolHand& hand, const Plane& plane, const Tool
                 room, after.rotation * normal_in_room(room, held_->plane.normal)))};
 }
 
-Plane PlaneHold::pulled_with(const ToolHand& hand, const Plane& plane, const ToolContext& now) {
+Plane PlaneHold::turned_with(const ToolHand& hand, const ToolContext& now) const {
+    const Similarity& room = now.room_from_physical;
+    const glm::dvec3 &middle = *pulled_->about, arm = pulled_->at - middle;
+    const double radius = glm::length(arm);
+    // From where the ray was, so that the plane does not jump as the button goes down.
+    const glm::dquat turn =
+        turn_between(on_sphere(middle, radius, pulled_->ray), on_sphere(middle, radius, *hand.ray));
+    const glm::dvec3 point = transform(room, pulled_->plane.point);
+    return {in_physical(room, middle + turn * (point - middle)),
+            glm::normalize(normal_in_physical(room, turn * pulled_->normal))};
+}
+
+Plane PlaneHold::pulled_with(const ToolHand& hand, const Plane& plane, const ToolContext& now,
+                             bool turns) {
     const Similarity& room = now.room_from_physical;
     if (hand.pressed) {
         const auto met = meeting_of(*hand.ray, plane, now);
         pulled_.reset();
         if (met)
-            pulled_ = Pulled{plane, *hand.ray, met->at, normal_in_room(room, plane.normal)};
+            pulled_ = Pulled{plane, *hand.ray, met->at, normal_in_room(room, plane.normal),
+                             turns ? middle_for_rim(met->at, plane, now) : std::nullopt};
     }
     if (!pulled_)
         return plane;
+    if (pulled_->about)
+        return turned_with(hand, now);
     const double cosine = glm::dot(pulled_->normal, ahead_of(pulled_->ray));
     const auto along = 1 - cosine * cosine < kFaces
                            ? moved_along(pulled_->at, pulled_->normal, pulled_->ray, *hand.ray)
@@ -119,8 +176,8 @@ Plane PlaneHold::pulled_with(const ToolHand& hand, const Plane& plane, const Too
     return pulled;
 }
 
-Plane PlaneHold::update(std::span<const ToolHand> hands, const Plane& plane,
-                        const ToolContext& now) {
+Plane PlaneHold::update(std::span<const ToolHand> hands, const Plane& plane, const ToolContext& now,
+                        bool turns) {
     Plane after = plane;
     bool holds = false, pulls = false;
     for (const ToolHand& hand : hands) {
@@ -128,7 +185,7 @@ Plane PlaneHold::update(std::span<const ToolHand> hands, const Plane& plane,
             continue;
         if (hand.is_mouse) {
             pulls = true;
-            after = pulled_with(hand, after, now);
+            after = pulled_with(hand, after, now, turns);
         } else if (!holds) {
             holds = true;
             after = moved_with(hand, after, now);

@@ -1,4 +1,5 @@
-// Planes that hands move: carried and turned by a hand, or pulled along their normal by the mouse.
+// Planes that hands move: carried and turned by a hand, or pulled along their normal and turned by
+// the mouse.
 #pragma once
 
 #include "interaction/tools/tool.h"
@@ -18,13 +19,16 @@ std::optional<PlaneMeeting> meeting_of(const Pose& ray, const Plane& plane, cons
 
 /// How hands hold a plane of a tool. A hand whose button is down holds it: the plane moves and turns
 /// with the hand. The mouse pulls the plane along its normal, at the point where the mouse's ray hit
-/// it; a plane that faces the user moves away as the mouse moves up.
+/// it; a plane that faces the user moves away as the mouse moves up. Near its outline the mouse turns
+/// the plane about its middle: the point that was hit follows the ray.
 class PlaneHold {
   public:
     /// Whether the mouse pulls a plane, and not the volume.
     bool pulls() const { return pulled_.has_value(); }
-    /// Call once a frame in which the plane is shown. @return where the plane is now
-    Plane update(std::span<const ToolHand> hands, const Plane& plane, const ToolContext& now);
+    /// Call once a frame in which the plane is shown. @param turns false: the mouse only pulls it
+    /// @return where the plane is now
+    Plane update(std::span<const ToolHand> hands, const Plane& plane, const ToolContext& now,
+                 bool turns = true);
     /// Call once a frame in which no plane is shown.
     void let_go() {
         held_.reset();
@@ -41,9 +45,11 @@ class PlaneHold {
         Plane plane;
         Pose ray;
         glm::dvec3 at, normal; ///< the point that was hit and the plane's normal, in the room
+        std::optional<glm::dvec3> about; ///< the middle that the plane is turned about, in the room
     };
     Plane moved_with(const ToolHand& hand, const Plane& plane, const ToolContext& now);
-    Plane pulled_with(const ToolHand& hand, const Plane& plane, const ToolContext& now);
+    Plane turned_with(const ToolHand& hand, const ToolContext& now) const;
+    Plane pulled_with(const ToolHand& hand, const Plane& plane, const ToolContext& now, bool turns);
 
     std::optional<Held> held_;
     std::optional<Pulled> pulled_;

@@ -1,17 +1,20 @@
 // The slices in numbers and buttons.
 #include "app/panel/parts/slice_lines.h"
 
+#include "app/config/first_placement.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/plane_fields.h"
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/theme.h"
+#include "interaction/navigation/axis_views.h"
 #include "interaction/tools/slice_tool.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -45,6 +48,25 @@ void slice_buttons(const PanelModel& model, Slices& slices) {
 
 } // namespace
 
+interaction::Commands flat_view(const PanelModel& model) {
+    interaction::Commands commands;
+    const interaction::Similarity& room = model.asked.room_from_physical;
+    commands.slices = model.asked.slices;
+    const interaction::Plane& plane = commands.slices->planes.at(commands.slices->picked);
+    const glm::dvec3 viewer = in_physical(room, glm::dvec3(model.head.position));
+    const bool from_front = glm::dot(viewer - plane.point, plane.normal) >= 0;
+    constexpr double kUpright = 0.9; // cosine to z beyond which y points up
+    const glm::dvec3 up =
+        std::abs(plane.normal.z) > kUpright ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+    const interaction::AxisView view{"flat", from_front ? plane.normal : -plane.normal, up};
+    commands.room_from_physical =
+        seen_from(view, room, physical_center(model.info.grid), model.head);
+    commands.slices->alone = true;
+    if (model.place != PanelPlace::in_room)
+        commands.orthographic = true;
+    return commands;
+}
+
 void slice_lines(const PanelModel& model, interaction::Commands& commands) {
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
     Slices slices = model.asked.slices;
@@ -71,6 +93,10 @@ void slice_lines(const PanelModel& model, interaction::Commands& commands) {
         ImGui::SameLine(0.0f, 14.0f);
         tick_field("##alone", slices.alone, "alone");
         tip("hide the surfaces (Ctrl + H)");
+        ImGui::SameLine(0.0f, 14.0f);
+        if (ImGui::Button("flat"))
+            merge(commands, flat_view(model));
+        tip("look straight at the slice, alone and in parallel projection");
     }
     if (slices.picked < slices.planes.size()) {
         for (const bool forward : {false, true}) {

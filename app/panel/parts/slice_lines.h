@@ -6,6 +6,9 @@
 
 namespace isochron::app {
 
+/// Shows the picked slice flat: alone, from straight ahead, in parallel projection.
+interaction::Commands flat_view(const PanelModel& model);
+
 /// Two lines in the current window, and one more while there are slices.
 void slice_lines(const PanelModel& model, interaction::Commands& commands);
 

@@ -282,6 +282,26 @@ TEST(Tools, AClickLaysASliceAcrossTheAxisThatIsNearestToTheRayAndADragPullsIt) {
     EXPECT_EQ(desk.settings.slices.planes.size(), 1u);
 }
 
+TEST(Tools, TheMouseTurnsASliceThatItHoldsNearItsOutline) {
+    SliceDesk desk;
+    desk.settings.slices.planes = {{{20, 10, 30}, {0, 0, 1}}};
+    const glm::dvec3 middle(30, 25, 30);
+    const glm::vec3 rim = desk.in_room({57, 25, 30});
+    desk.mouse(rim, bit(MouseBit::left));
+    EXPECT_EQ(desk.slice().normal, glm::dvec3(0, 0, 1)) << "nothing jumps as the button goes down";
+    // Towards the middle: the point that was hit goes along the sphere about the middle.
+    const glm::vec3 nearer = glm::mix(rim, desk.in_room(middle), 0.4f);
+    desk.mouse(nearer, bit(MouseBit::left), 0.1f);
+    const Plane turned = desk.slice();
+    EXPECT_LT(std::abs(turned.normal.z), 0.95);
+    EXPECT_NEAR(turned.normal.y, 0, 0.01);
+    EXPECT_NEAR(glm::length(turned.normal), 1, 1e-12);
+    EXPECT_NEAR(glm::dot(turned.point - middle, turned.normal), 0, 1e-6) << "about its middle";
+    desk.mouse(rim, bit(MouseBit::left), 0.2f);
+    EXPECT_NEAR(desk.slice().normal.z, 1, 1e-6) << "and back";
+    expect_near(desk.slice().point, {20, 10, 30}, 1e-4);
+}
+
 TEST(Tools, AHandTurnsTheSliceThatItPointsAtAndPicksIt) {
     SliceDesk desk;
     desk.settings.slices = with_slice(with_slice({}, desk.context.data), desk.context.data);

@@ -62,7 +62,7 @@ std::optional<glm::dvec3> middle_for_rim(const glm::dvec3& at, const Plane& plan
         middle += corner / static_cast<double>(corners.size());
     }
     const glm::dvec3 normal = normal_in_room(now.room_from_physical, plane.normal);
-    double share = 0; // of the way from the middle to the outline, through the point
+    double share = 0; // how far the point is on the way from the middle to the outline
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec3& from = corners[i];
         const glm::dvec3 side = glm::cross(corners[(i + 1) % corners.size()] - from, normal);

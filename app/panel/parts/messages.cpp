@@ -82,7 +82,11 @@ glm::vec2 state_chip(const PanelModel& model, const PanelBox& picture, bool& ope
     tip("how exact the picture is; a click shows the times and numbers behind it");
     ImGui::End();
     ImGui::PopStyleVar();
-    return {corner.x + width, corner.y + height};
+    // What stands beside the chip stays where it is while a picture that is not small becomes exact.
+    constexpr float kSmall = 800.0f;
+    const float widest =
+        picture.size().x < kSmall ? width : ImGui::CalcTextSize("preview 4 of 4").x + 34.0f;
+    return {corner.x + std::max(width, widest), corner.y + height};
 }
 
 float statistics_end(const PanelBox& picture) {

@@ -22,7 +22,7 @@ std::string quality_line(const FrameReport& frame);
 
 /// The chip with these words at the upper left of the picture; a click opens and closes the
 /// statistics. @param open whether they are open
-/// @return the right lower corner of the chip
+/// @return right lower corner of the room that the chip takes
 glm::vec2 state_chip(const PanelModel& model, const PanelBox& picture, bool& open);
 /// The figures behind these words, at the left of the picture. @param top where they begin
 /// @param highest more lines are reached by scrolling

@@ -218,7 +218,7 @@ class PanelDrawing {
         add_lines(axes.ticks, kTick, drawn.before);
         for (const render::Label& label :
              labels_with_room(axes.labels, room_font(static_cast<int>(std::lround(text))),
-                              placement.room_from_index, views, share)) {
+                              placement, views, share)) {
             const glm::dvec2 place = in_picture(clip * glm::vec4(label.at, 1.0f));
             const glm::dvec2 offset = glm::dvec2(label.offset) *
                                       static_cast<double>(text_height(pixels, share)) /

@@ -4,9 +4,11 @@
 #include "app/scene/legend.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 
@@ -20,18 +22,26 @@ constexpr float kOneLine = 0.5f; ///< texts are on one line if their heights ove
 
 class Room {
   public:
-    Room(const render::GlyphAtlas& atlas, const glm::mat4& room_from_model,
+    Room(const render::GlyphAtlas& atlas, const render::Placement& placement,
          std::span<const render::View> views, float share, std::vector<Covered> taken)
-        : atlas_(atlas), room_from_model_(room_from_model), views_(views), share_(share),
+        : atlas_(atlas), placement_(placement), views_(views), share_(share),
           taken_(std::move(taken)) {}
 
     Covered covered(const render::Label& label) const {
         Covered result;
         for (const render::View& view : views_)
-            result.push_back(covered_by(
-                label, text_height(view.size, share_), atlas_,
-                view.steady().clip_from_eye * view.eye_from_room * room_from_model_, view.size));
+            result.push_back(covered_by(label, text_height(view.size, share_), atlas_,
+                                        clip_from_index(view), view.size));
         return result;
+    }
+
+    /// Whether words lie over the box in a view, where cells may hide them.
+    bool is_over_box(const Covered& here) const {
+        for (std::size_t i = 0; i < views_.size(); ++i)
+            for (int face = 0; here[i] && face < 6; ++face)
+                if (const auto seen = face_in(views_[i], face); seen && meet(*here[i], *seen))
+                    return true;
+        return false;
     }
 
     /// Whether two labels come too close in any view.
@@ -74,21 +84,24 @@ class Room {
         }
         return label;
     }
-    /// The title inside the pictures, as near its place as it stands on the fewest numbers; where other
-    /// words leave no room beside the box, over the box.
+    /// The title inside the pictures, as near its place as it stands on the fewest numbers; over the
+    /// box where there is no room beside it, and on other words where there is none at all.
     render::Label beside_numbers(const render::Label& title,
                                  std::span<const AxisLabels> axes) const {
         std::optional<render::Label> best;
         std::ptrdiff_t fewest = 0;
-        constexpr std::ptrdiff_t kOtherWords = 100; // worse than all numbers
+        constexpr std::ptrdiff_t kOverBox = 50, kOtherWords = 100; // worse than all numbers
         const auto consider = [&](float farther, float higher) {
             render::Label moved = title;
             moved.offset = farther * moved.offset + glm::vec2(0.0f, higher);
+            const glm::vec2 before = moved.offset;
             moved = moved_inside(moved);
             const Covered here = covered(moved);
             std::ptrdiff_t on =
                 kOtherWords * std::ranges::count_if(
                                   taken_, [&](const Covered& taken) { return touch(here, taken); });
+            if ((farther < 0.0f || moved.offset != before) && is_over_box(here))
+                on += kOverBox;
             for (const AxisLabels& axis : axes)
                 on += std::ranges::count_if(axis.numbers, [&](const AxisLabels::Number& number) {
                     return touch(here, covered(number.label));
@@ -100,9 +113,9 @@ class Room {
         };
         for (const float higher : {0.0f, 2.0f, -2.0f, 5.0f, -5.0f}) { // heights of the text
             for (const float farther : {1.0f, 1.3f, 1.7f, 2.2f, 2.8f, -1.0f, -2.0f, -4.0f})
-                if (!best || fewest >= (farther > 0.0f && higher == 0.0f ? 1 : kOtherWords))
+                if (!best || fewest >= (farther > 0.0f && higher == 0.0f ? 1 : kOverBox))
                     consider(farther, higher);
-            if (fewest < kOtherWords)
+            if (fewest < kOverBox)
                 break;
         }
         return *best;
@@ -111,6 +124,48 @@ class Room {
 
   private:
     static constexpr float kRim = 2.0f; ///< [pixel] between the words and the picture's edge
+
+    /// The corners of a convex quadrilateral, in order [pixel].
+    using Quadrilateral = std::array<glm::vec2, 4>;
+
+    glm::mat4 clip_from_index(const render::View& view) const {
+        return view.steady().clip_from_eye * view.eye_from_room * placement_.room_from_index;
+    }
+    /// A face of the box in a view; empty if a part of it is behind the eye.
+    std::optional<Quadrilateral> face_in(const render::View& view, int face) const {
+        constexpr std::array<std::array<float, 2>, 4> kAround{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+        Quadrilateral seen;
+        for (std::size_t i = 0; i < 4; ++i) {
+            glm::vec4 at(0.0f, 0.0f, 0.0f, 1.0f);
+            const int axis = face / 2;
+            at[axis] = face % 2 == 0 ? 0.0f : placement_.extent[axis];
+            for (int k = 0; k < 2; ++k)
+                at[(axis + 1 + k) % 3] =
+                    kAround[i][static_cast<std::size_t>(k)] * placement_.extent[(axis + 1 + k) % 3];
+            const glm::vec4 clip = clip_from_index(view) * at;
+            if (!(clip.w > 0.0f))
+                return std::nullopt;
+            seen[i] = (0.5f * glm::vec2(clip) / clip.w + 0.5f) * glm::vec2(view.size);
+        }
+        return seen;
+    }
+    /// Whether no line along one of their sides parts them.
+    static bool meet(const TextRectangle& words, const Quadrilateral& face) {
+        const Quadrilateral corners{words.low, glm::vec2(words.high.x, words.low.y), words.high,
+                                    glm::vec2(words.low.x, words.high.y)};
+        const auto parted_by = [&](const glm::vec2& way) {
+            const auto along = [&](const glm::vec2& at) { return glm::dot(at, way); };
+            const auto [a, b] = std::ranges::minmax(corners, {}, along);
+            const auto [c, d] = std::ranges::minmax(face, {}, along);
+            return along(b) < along(c) || along(d) < along(a);
+        };
+        for (std::size_t i = 0; i < 4; ++i) {
+            const glm::vec2 side = face[(i + 1) % 4] - face[i];
+            if (parted_by({-side.y, side.x}))
+                return false;
+        }
+        return !parted_by({1.0f, 0.0f}) && !parted_by({0.0f, 1.0f});
+    }
 
     bool is_cut(const Covered& here) const {
         for (std::size_t i = 0; i < views_.size(); ++i)
@@ -121,7 +176,7 @@ class Room {
     }
 
     const render::GlyphAtlas& atlas_;
-    glm::mat4 room_from_model_;
+    render::Placement placement_;
     std::span<const render::View> views_;
     float share_; ///< see `text_height`
     std::vector<Covered> taken_;
@@ -166,10 +221,10 @@ std::optional<TextRectangle> covered_by(const render::Label& label, float height
 
 std::vector<render::Label> labels_with_room(std::span<const AxisLabels> axes,
                                             const render::GlyphAtlas& atlas,
-                                            const glm::mat4& room_from_model,
+                                            const render::Placement& placement,
                                             std::span<const render::View> views, float share,
                                             std::vector<Covered> taken) {
-    Room room(atlas, room_from_model, views, share, std::move(taken));
+    Room room(atlas, placement, views, share, std::move(taken));
     for (const AxisLabels& axis : axes)
         room.take(room.beside_numbers(axis.title, axes));
     // Two numbers of each axis first, as far apart as there is room: of those that are spread evenly,

@@ -33,12 +33,11 @@ std::optional<TextRectangle> covered_by(const render::Label& label, float height
 /// same labels. Titles take precedence. An axis on which numbers would touch shows every second,
 /// fifth or tenth of them, counted from zero; where two axes meet, only the first one's number is
 /// shown.
-/// @param room_from_model from the labels' coordinates to the room
 /// @param share height of the labels, see `text_height`
 /// @param taken words that stand elsewhere in the picture, such as the legend
 std::vector<render::Label> labels_with_room(std::span<const AxisLabels> axes,
                                             const render::GlyphAtlas& atlas,
-                                            const glm::mat4& room_from_model,
+                                            const render::Placement& placement,
                                             std::span<const render::View> views, float share = 0.0f,
                                             std::vector<Covered> taken = {});
 

@@ -419,8 +419,8 @@ void Scene::draw_before_cells(std::span<const render::View> views, const Picture
         taken[2].push_back(covered_by(words.caption));
     }
     const std::vector<render::Label> labels =
-        labels_with_room(axes.labels, text_pass_.atlas(), placement.room_from_index, views,
-                         picture.layout.text, {taken.begin(), taken.end()});
+        labels_with_room(axes.labels, text_pass_.atlas(), placement, views, picture.layout.text,
+                         {taken.begin(), taken.end()});
     for (const render::View& view : views) {
         render::BoxLines box = box_in(view, picture, placement);
         std::vector<render::Line> lines = std::move(box.outline);

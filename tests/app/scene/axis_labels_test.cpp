@@ -62,8 +62,7 @@ class AxisLabelsTest : public testing::Test {
   protected:
     std::vector<render::Label> shown(const Looking& from, const std::vector<Covered>& taken = {}) {
         axes_ = axes_for(info_, placement_, from.head, from.views);
-        return labels_with_room(axes_.labels, atlas_, placement_.room_from_index, from.views, 0.0f,
-                                taken);
+        return labels_with_room(axes_.labels, atlas_, placement_, from.views, 0.0f, taken);
     }
     /// Whether the two texts cover a common pixel in a view, worked out anew.
     bool overlap(const render::Label& a, const render::Label& b, const render::View& view) const {

@@ -102,8 +102,8 @@ TEST_P(TrianglePassTest, LetTheShareOfLightThroughThatTheyDoNotCover) {
 /// What lies beyond the middle of the volume, z = 5, comes before the cells, all else after them.
 TEST_P(TrianglePassTest, DivideIntoSharesAtTheMiddleOfTheVolume) {
     auto both = std::make_shared<index::TriangleMesh>(*plate(0, 10, 0, 5, 8));
-    for (const glm::vec3& point : plate(0, 10, 5, 10, 2)->points)
-        both->points.push_back(point);
+    const auto beyond = plate(0, 10, 5, 10, 2);
+    both->points.insert(both->points.end(), beyond->points.begin(), beyond->points.end());
     for (const std::uint32_t corner : {4u, 5u, 6u, 4u, 6u, 7u})
         both->corners.push_back(corner);
     const auto shown = [&](TriangleShare share, double y) {

@@ -76,7 +76,7 @@ struct CornersOfPoints {
 /// A point is divided where its triangles meet at an edge. Both sides of a triangle are lit, so it
 /// does not matter in which order it has its corners.
 void add_normals(TriangleMesh& mesh) {
-    constexpr float kSmooth = 0.8660254f; // cosine of 30 degrees
+    constexpr float kSmooth = 0.8660254f;            // cosine of 30 degrees
     std::vector<glm::vec3> across(mesh.triangles()); // as long as the triangle is large
     for (std::size_t i = 0; i < across.size(); ++i) {
         const auto at = [&](std::size_t k) {
@@ -103,8 +103,9 @@ void add_normals(TriangleMesh& mesh) {
             });
             if (side == sides.end()) {
                 const bool is_first = sides.empty();
-                sides.push_back({unit, glm::vec3(0.0f),
-                                 static_cast<std::uint32_t>(is_first ? point : mesh.points.size())});
+                sides.push_back(
+                    {unit, glm::vec3(0.0f),
+                     static_cast<std::uint32_t>(is_first ? point : mesh.points.size())});
                 if (!is_first)
                     mesh.points.push_back(glm::vec3(mesh.points[point]));
                 side = std::prev(sides.end());
@@ -167,9 +168,10 @@ TriangleMesh finished(StatedModel model, const std::string& name) {
         const glm::dvec3& point = model.points[i];
         for (int axis = 0; axis < 3; ++axis)
             if (!(std::abs(point[axis]) <= kMostCoordinate))
-                throw Error(fmt::format("{}: point {} has the coordinate {}: expected a number of at "
-                                        "most {:g}",
-                                        name, i, point[axis], kMostCoordinate));
+                throw Error(
+                    fmt::format("{}: point {} has the coordinate {}: expected a number of at "
+                                "most {:g}",
+                                name, i, point[axis], kMostCoordinate));
         low = glm::min(low, point);
         high = glm::max(high, point);
     }
@@ -189,7 +191,9 @@ TriangleMesh finished(StatedModel model, const std::string& name) {
 TriangleMesh decode_model(const std::filesystem::path& path) {
     const MappedFile file(path);
     const std::string name = path.string(), extension = lower_case(path.extension().string());
-    const auto parse = extension == ".stl" ? stl_model : extension == ".ply" ? ply_model : obj_model;
+    const auto parse = extension == ".stl"   ? stl_model
+                       : extension == ".ply" ? ply_model
+                                             : obj_model;
     return finished(parse(file.bytes(), name), name);
 }
 

@@ -45,8 +45,8 @@ StatedModel obj_model(std::span<const std::byte> bytes, const std::string& name)
             }
             if (polygon.size() < 3)
                 text.fail(fmt::format("a face of {} corners, expected 3 or more", polygon.size()));
-            model.add_polygon(polygon, name, fmt::format("face {} (line {})", ++faces,
-                                                         text.line_number()));
+            model.add_polygon(polygon, name,
+                              fmt::format("face {} (line {})", ++faces, text.line_number()));
         }
     }
     return model;

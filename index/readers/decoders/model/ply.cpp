@@ -48,8 +48,8 @@ PlyType ply_type(ModelText& text) {
     for (std::size_t i = 0; i < kPlyTypes.size(); ++i)
         if (word == kPlyTypes[i][0] || word == kPlyTypes[i][1])
             return static_cast<PlyType>(i);
-    text.fail(fmt::format("'{}', expected a type of PLY, as float or uchar",
-                          ModelText::shortened(word)));
+    text.fail(
+        fmt::format("'{}', expected a type of PLY, as float or uchar", ModelText::shortened(word)));
 }
 
 void take_property(ModelText& text, PlyHeader& header) {
@@ -87,7 +87,7 @@ PlyHeader ply_header(ModelText& text) {
             header.form = static_cast<PlyForm>(found - kForms.begin());
             has_form = true;
         } else if (word == "element") {
-            PlyElement element{.name = std::string(text.word())};
+            PlyElement element{.name = std::string(text.word()), .properties = {}};
             element.count = text.number<std::uint64_t>("the number of elements");
             header.elements.push_back(std::move(element));
         } else if (word == "property") {
@@ -196,14 +196,13 @@ class PlyValues {
 /// Number of the axis of a vertex that a property is; 3: none.
 std::size_t axis_of(const PlyProperty& property) {
     constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
-    return property.count ? kAxes.size()
-                          : static_cast<std::size_t>(std::ranges::find(kAxes, property.name) -
-                                                     kAxes.begin());
+    return property.count
+               ? kAxes.size()
+               : static_cast<std::size_t>(std::ranges::find(kAxes, property.name) - kAxes.begin());
 }
 
 bool is_corners(const PlyProperty& property) {
-    return property.count &&
-           (property.name == "vertex_indices" || property.name == "vertex_index");
+    return property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
 } // namespace
@@ -221,11 +220,11 @@ StatedModel ply_model(std::span<const std::byte> bytes, const std::string& name)
         for (const PlyProperty& property : element.properties)
             axes |= axis_of(property) < 3 ? std::size_t{1} << axis_of(property) : 0;
         if (vertices && axes != 7)
-            throw Error(fmt::format("{}: element vertex lacks a place: expected properties x, y, z",
-                                    name));
+            throw Error(
+                fmt::format("{}: element vertex lacks a place: expected properties x, y, z", name));
         if (faces && std::ranges::none_of(element.properties, is_corners))
-            throw Error(fmt::format("{}: element face: expected a property list vertex_indices",
-                                    name));
+            throw Error(
+                fmt::format("{}: element face: expected a property list vertex_indices", name));
         for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
             values.begin(element, i);
             glm::dvec3 place(0.0);

@@ -55,9 +55,10 @@ StatedModel stl_in_text(std::span<const std::byte> bytes, const std::string& nam
             ++corners;
         } else if (word == "facet" || word == "endfacet") {
             if (in_facet != (word == "endfacet") || (in_facet && corners != 3))
-                text.fail(fmt::format("'{}' after {} corners: expected facets of three vertices, one "
-                                      "after the other",
-                                      word, corners));
+                text.fail(
+                    fmt::format("'{}' after {} corners: expected facets of three vertices, one "
+                                "after the other",
+                                word, corners));
             in_facet = !in_facet;
             corners = 0;
         } else if (word == "solid" || word == "endsolid") {
@@ -83,8 +84,8 @@ StatedModel stl_model(std::span<const std::byte> bytes, const std::string& name)
     if (bytes.size() < kStlHeader + 4) {
         if (solid)
             return stl_in_text(bytes, name);
-        throw Error(fmt::format("{}: {} bytes, expected STL: 'solid', or a header of 84 bytes", name,
-                                bytes.size()));
+        throw Error(fmt::format("{}: {} bytes, expected STL: 'solid', or a header of 84 bytes",
+                                name, bytes.size()));
     }
     std::uint32_t count = 0;
     std::memcpy(&count, &bytes[kStlHeader], sizeof count);

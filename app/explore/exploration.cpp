@@ -21,6 +21,7 @@
 #include "app/loop/surface_maker.h"
 #include "app/telling.h"
 #include "index/error.h"
+#include "index/readers/formats/model_file.h"
 #include "index/system/links/link.h"
 #include "index/system/new_file.h"
 #include "index/system/user_folders.h"
@@ -309,6 +310,38 @@ void Exploration::set_start() {
         session_->set_state(as_linked(std::move(linked), of_link_, *file_, link_screen()));
     }
     session_->set_state(start_from(session_->state(), options_, steps));
+    show_models();
+}
+
+/// Lets those models be opened that this user has shown before: sessions in their own folder name no
+/// others. Adds the models of the command line.
+void Exploration::show_models() {
+    ModelSupply& models = session_->models();
+    if (job_.size() > 1)
+        models.allow_all(); // the first process has refused what its user has not named
+    for (const std::string& file : options_.sources.files)
+        if (!index::is_link(file))
+            models.add_folder(std::filesystem::path(file).parent_path());
+    if (options_.session)
+        models.add_folder(std::filesystem::path(*options_.session).parent_path());
+    else if (earlier_)
+        models.allow_those_of(earlier_->state);
+    ExplorerState state = session_->state();
+    for (const std::string& file : options_.models) {
+        if (!index::is_model_name(file))
+            throw UsageError(fmt::format("--model: expected a file of {}, got {}",
+                                         index::model_extensions(), file));
+        if (std::error_code error;
+            !index::is_model_series(file) && !std::filesystem::is_regular_file(file, error))
+            throw UsageError(fmt::format("--model: {}: there is no such file", file));
+        const std::string path = models.allow(std::filesystem::absolute(file));
+        if (std::ranges::find(state.models, path, &interaction::Model::path) == state.models.end())
+            state.models.push_back({.path = path});
+    }
+    if (state.models.size() > interaction::kMostModels)
+        throw UsageError(fmt::format("--model: {} models, expected at most {}", state.models.size(),
+                                     interaction::kMostModels));
+    session_->set_state(state);
 }
 
 /// The first window, as links see it.
@@ -440,6 +473,8 @@ std::vector<std::filesystem::path> Exploration::offer_earlier(BackgroundWork& re
     for (const EarlierSession& each : all) {
         try {
             const std::string hash = held_hash(*file_, each.session.data_hash);
+            if (!options_.session)
+                session_->models().allow_those_of(each.session.state);
             const bool goes = std::ranges::find(drops, each.path) != drops.end();
             offers.push_back({words_of(each) + (goes ? ", goes next" : ""),
                               state_of(each.session, session_->state(), hash, file_->info().steps(),

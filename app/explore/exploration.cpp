@@ -21,7 +21,6 @@
 #include "app/loop/surface_maker.h"
 #include "app/telling.h"
 #include "index/error.h"
-#include "index/readers/formats/model_file.h"
 #include "index/system/links/link.h"
 #include "index/system/new_file.h"
 #include "index/system/user_folders.h"
@@ -328,19 +327,15 @@ void Exploration::show_models() {
         models.allow_those_of(earlier_->state);
     ExplorerState state = session_->state();
     for (const std::string& file : options_.models) {
-        if (!index::is_model_name(file))
-            throw UsageError(fmt::format("--model: expected a file of {}, got {}",
-                                         index::model_extensions(), file));
-        if (std::error_code error;
-            !index::is_model_series(file) && !std::filesystem::is_regular_file(file, error))
-            throw UsageError(fmt::format("--model: {}: there is no such file", file));
         const std::string path = models.allow(std::filesystem::absolute(file));
-        if (std::ranges::find(state.models, path, &interaction::Model::path) == state.models.end())
+        if (std::ranges::find(state.models, path, &interaction::Model::path) != state.models.end())
+            continue;
+        if (state.models.size() < interaction::kMostModels)
             state.models.push_back({.path = path});
+        else
+            print_note("--model: {} is not shown: the session has {} models already", file,
+                       state.models.size());
     }
-    if (state.models.size() > interaction::kMostModels)
-        throw UsageError(fmt::format("--model: {} models, expected at most {}", state.models.size(),
-                                     interaction::kMostModels));
     session_->set_state(state);
 }
 

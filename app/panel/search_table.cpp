@@ -328,8 +328,8 @@ constexpr OtherNames kOtherNames[] = {
     {"array", "variable, scalar, scalars, active scalars, field, channel, quantity, component, "
               "contour by, layer, attribute, dataset"},
     {"next_array", "next variable, switch variable, other field, next layer"},
-    {"open_model", "open mesh, load mesh, import mesh, stl, ply, obj, vtp, gltf, glb, geometry, hull, "
-                   "airplane, coast, coastline, bone, segmentation, context, cad, triangles, "
+    {"open_model", "open mesh, load mesh, import mesh, stl, ply, obj, vtp, gltf, glb, geometry, "
+                   "coastline, bone, segmentation, cad, triangles, "
                    "polygons, model"},
     {"model", "hide mesh, show mesh, hide model, show model, hull, context"},
     {"model_edges", "wireframe, mesh lines, edges of a model, surface with edges"},
@@ -762,7 +762,8 @@ void add_tools(Lines& lines) {
 /// The models, each by the name of its file.
 void add_models(Lines& lines) {
     const std::vector<KeyCommand>& keys = key_commands();
-    const auto opens = std::ranges::find(keys, std::string_view("open_data"), &KeyCommand::found_as);
+    const auto opens =
+        std::ranges::find(keys, std::string_view("open_data"), &KeyCommand::found_as);
     if (opens != keys.end())
         lines.add({.name = "open_model",
                    .words = "open a model: a file of triangles beside the surfaces",
@@ -779,11 +780,12 @@ void add_models(Lines& lines) {
             return commands;
         };
         const auto add = [&](const char* control, std::string words, bool interaction::Model::*on) {
-            lines.add({.name = fmt::format("{}={}", control, name),
-                       .words = std::move(words),
-                       .others = std::string(other_names(control)),
-                       .value = models[i].*on ? "on" : "off",
-                       .commands = with([on](interaction::Model& each) { each.*on = !(each.*on); })});
+            lines.add(
+                {.name = fmt::format("{}={}", control, name),
+                 .words = std::move(words),
+                 .others = std::string(other_names(control)),
+                 .value = models[i].*on ? "on" : "off",
+                 .commands = with([on](interaction::Model& each) { each.*on = !(each.*on); })});
         };
         add("model", fmt::format("model {}: shown", name), &interaction::Model::shown);
         add("model_edges", fmt::format("model {}: edges, not faces", name),

@@ -46,7 +46,7 @@ bool model_row(const PanelModel& model, const ListedModel& line, Model& shown) {
     ImGui::SameLine();
     const float gap = ImGui::GetStyle().ItemSpacing.x, width = ImGui::GetContentRegionAvail().x;
     const float left = ImGui::GetCursorPosX();
-    constexpr float kEdges = 62.0f;
+    constexpr float kEdges = 68.0f;
     ImGui::AlignTextToFramePadding();
     fitted_text(std::filesystem::path(shown.path).filename().string(),
                 width - kModelOpacity - kModelIcon - kEdges - 3 * gap,

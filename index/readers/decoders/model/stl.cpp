@@ -75,7 +75,7 @@ StatedModel stl_in_text(std::span<const std::byte> bytes, const std::string& nam
 
 } // namespace
 
-/// A binary file may begin with `solid`, too: its length tells.
+/// A binary file may begin with `solid`, too: its length tells, or its zeros.
 StatedModel stl_model(std::span<const std::byte> bytes, const std::string& name) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const std::size_t first = text.find_first_not_of(" \t\r\n");
@@ -91,7 +91,9 @@ StatedModel stl_model(std::span<const std::byte> bytes, const std::string& name)
     std::memcpy(&count, &bytes[kStlHeader], sizeof count);
     const bool fits =
         bytes.size() == kStlHeader + sizeof count + kStlTriangle * std::uint64_t{count};
-    return solid && !fits ? stl_in_text(bytes, name) : stl_in_binary(bytes, name);
+    constexpr std::size_t kLooked = 1024;
+    const bool zeros = text.substr(0, kLooked).find('\0') != std::string_view::npos;
+    return solid && !fits && !zeros ? stl_in_text(bytes, name) : stl_in_binary(bytes, name);
 }
 
 } // namespace isochron::index

@@ -352,6 +352,46 @@ TEST(Models, OfAnExportLieOnTheSurface) {
         }
 }
 
+/// A quadrilateral; and a triangle in meters with y upwards.
+TEST(Models, AreReadByVtkToo) {
+    const test_support::TestFolder folder;
+    const auto vtp = [](const char* corners) {
+        return fmt::format(
+            "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\"><PolyData>"
+            "<Piece NumberOfPoints=\"4\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
+            "NumberOfStrips=\"0\" "
+            "NumberOfPolys=\"1\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" "
+            "format=\"ascii\">0 0 0 2 0 0 2 2 0 0 2 0</DataArray></Points><Polys><DataArray "
+            "type=\"Int64\" Name=\"connectivity\" format=\"ascii\">{}</DataArray><DataArray "
+            "type=\"Int64\" Name=\"offsets\" "
+            "format=\"ascii\">4</DataArray></Polys></Piece></PolyData>"
+            "</VTKFile>",
+            corners);
+    };
+    const TriangleMesh quad = read_model(folder.write("a.vtp", vtp("0 1 2 3")));
+    EXPECT_EQ(quad.triangles(), 2u);
+    EXPECT_EQ(bounds(quad), (std::array{glm::dvec3(0), glm::dvec3(2, 2, 0)}));
+    EXPECT_THROW(read_model(folder.write("b.vtp", vtp("0 1 2 9"))), Error);
+    EXPECT_THROW(read_model(folder.write("c.vtp", vtp("0 1 2 -7"))), Error);
+    // (1, 2, 3), (2, 2, 3), (1, 4, 3.5) as floats
+    folder.write("a.gltf",
+                 R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
+                 R"("nodes":[{"mesh":0,"translation":[10,0,0]}],)"
+                 R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                 R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)"
+                 R"("min":[1,2,3],"max":[2,4,3.5]}],)"
+                 R"("bufferViews":[{"buffer":0,"byteLength":36}],)"
+                 R"("buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
+                 R"(AACAPwAAAEAAAEBAAAAAQAAAAEAAAEBAAACAPwAAgEAAAGBA"}]})");
+    const TriangleMesh turned = read_model(folder.path() / "a.gltf", "mm");
+    ASSERT_EQ(turned.triangles(), 1u);
+    const glm::dvec3 expected[]{{11, -3, 2}, {12, -3, 2}, {11, -3.5, 4}};
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_LT(glm::distance(turned.origin + glm::dvec3(turned.points[turned.corners[i]]),
+                                1000.0 * expected[i]),
+                  1e-3);
+}
+
 TEST(Models, AreReadBehindTheFenceAndRefusedInOneLine) {
     const test_support::TestFolder folder;
     for (const Format& format : kFormats)

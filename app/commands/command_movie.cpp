@@ -433,6 +433,7 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
     Session session(config, file, windows_of(options, config, recording.header, job));
     session.set_data_name(data_name(options, recording.header),
                           other_data(recording.header, *file));
+    let_show_models(options, session);
     session.set_state(start_of(recording.header, session.state(), file->info().steps(), replay));
     if (of_index)
         recording =
@@ -464,6 +465,7 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
         draw_frames(options, session, recording, replay, drawing, kept,
                     stands_alone(config, recording, replay), movies, writing);
         movies.finish();
+        say_faults(session.models());
     } catch (const Canceled&) {
         if (options.background) // the panel's button deletes
             kept.remove();

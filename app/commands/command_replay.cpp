@@ -252,6 +252,7 @@ void replay(const Options& options, ClusterJob& job) {
                        windows_of(options, all.config, all.recording.header, job));
         opened->set_data_name(data_name(options, all.recording.header),
                               other_data(all.recording.header, *all.file));
+        let_show_models(options, *opened);
         opened->set_state(
             start_of(all.recording.header, opened->state(), all.file->info().steps(), all.replay));
         if (options.out)
@@ -272,6 +273,8 @@ void replay(const Options& options, ClusterJob& job) {
     };
     const std::vector<std::string> different = show(session, all, options, job, done);
     session.outputs().pictures().finish();
+    if (job.leads())
+        say_faults(session.models());
     report_pictures(options, all.recording.frames.size(), written, job.leads());
     if (options.report)
         session.log().finish_report(session.drawing(), session.reading());

@@ -36,6 +36,7 @@ struct ReproduceOptions {
     std::optional<std::string> data, out;
     std::string context = "egl";
     bool force = false, any_data = false;
+    std::vector<std::string> models; ///< files of triangles that may be opened
 };
 
 PictureNote note_in(const fs::path& picture) {
@@ -152,7 +153,12 @@ MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
     if (note.footprint == render::name_of(render::Footprint::quad))
         state.quality = interaction::QualityMode::fast;
     session.set_state(state);
+    session.models().add_folder(fs::path(options.picture).parent_path());
+    for (const std::string& model : options.models)
+        session.models().allow(fs::absolute(model));
     settle(session, note);
+    for (const std::string& fault : session.models().faults())
+        made.differs.push_back(fault);
     const PictureNames names = picture_names(config.installation);
     const bool each_eye =
         note.part.shows == "left" || note.part.shows == "right" || note.part.shows == "center";
@@ -346,6 +352,11 @@ void add_reproduce(Command& program) {
                 "Index to draw (default: the one that the picture names, beside the picture or in "
                 "the working directory)")
         .type_name("INDEX");
+    command
+        .option("--model", options->models,
+                "Let the picture show this file of triangles, though it lies outside of the folders "
+                "of picture and data; may be given several times")
+        .type_name("FILE");
     command.option("-o,--output,--out", options->out, "Save the new picture in this file")
         .type_name("FILE");
     command.flag("--force", options->force,

@@ -309,6 +309,34 @@ void Exploration::set_start() {
         session_->set_state(as_linked(std::move(linked), of_link_, *file_, link_screen()));
     }
     session_->set_state(start_from(session_->state(), options_, steps));
+    show_models();
+}
+
+/// Lets those models be opened that this user has shown before: sessions in their own folder name no
+/// others. Adds the models of the command line.
+void Exploration::show_models() {
+    ModelSupply& models = session_->models();
+    if (job_.size() > 1)
+        models.allow_all(); // the first process has refused what its user has not named
+    for (const std::string& file : options_.sources.files)
+        if (!index::is_link(file))
+            models.add_folder(std::filesystem::path(file).parent_path());
+    if (options_.session)
+        models.add_folder(std::filesystem::path(*options_.session).parent_path());
+    else if (earlier_)
+        models.allow_those_of(earlier_->state);
+    ExplorerState state = session_->state();
+    for (const std::string& file : options_.models) {
+        const std::string path = models.allow(std::filesystem::absolute(file));
+        if (std::ranges::find(state.models, path, &interaction::Model::path) != state.models.end())
+            continue;
+        if (state.models.size() < interaction::kMostModels)
+            state.models.push_back({.path = path});
+        else
+            print_note("--model: {} is not shown: the session has {} models already", file,
+                       state.models.size());
+    }
+    session_->set_state(state);
 }
 
 /// The first window, as links see it.
@@ -440,6 +468,8 @@ std::vector<std::filesystem::path> Exploration::offer_earlier(BackgroundWork& re
     for (const EarlierSession& each : all) {
         try {
             const std::string hash = held_hash(*file_, each.session.data_hash);
+            if (!options_.session)
+                session_->models().allow_those_of(each.session.state);
             const bool goes = std::ranges::find(drops, each.path) != drops.end();
             offers.push_back({words_of(each) + (goes ? ", goes next" : ""),
                               state_of(each.session, session_->state(), hash, file_->info().steps(),

@@ -61,6 +61,7 @@ class Exploration {
     LiveOptions live_options_with(UserMemory& memory, BackgroundWork& writing);
     void lead(LiveLoop& live, BackgroundWork& reading);
     std::vector<std::filesystem::path> offer_earlier(BackgroundWork& reading);
+    void show_models();
     void say_dropped(const EarlierSession& session);
     void keep(LiveLoop& live, BackgroundWork& reading);
     void finish(LiveLoop& live, UserMemory& memory);

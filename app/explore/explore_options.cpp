@@ -95,6 +95,11 @@ void add_explore_options(Command& command, ExploreOptions& options) {
                 "both (key Ctrl + T)")
         .one_of(interaction::all_names<interaction::BetweenSteps>())
         .type_name("MODE");
+    command
+        .option("--model", options.models,
+                "Show the triangles of this file beside the surfaces, in the data's coordinates: "
+                ".stl, .ply, .obj, .vtp, .gltf, .glb; may be given several times")
+        .type_name("FILE");
     command.flag("--follow", options.follow,
                  "Show the last step, and each new one that `build --append` adds (key End)");
     add_control_option(command, options.control);

@@ -23,6 +23,7 @@ struct ExploreOptions {
     std::optional<std::uint32_t> step;
     std::vector<int> size;
     std::string screenshots = ".";
+    std::vector<std::string> models; ///< files of triangles
     std::optional<std::string> session;
     bool force = false, resume = false, follow = false;
     bool no_panel = false, emulate = false, list_devices = false, test_pattern = false;

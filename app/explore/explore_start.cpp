@@ -18,6 +18,7 @@
 #include "index/error.h"
 #include "index/file/blend_advice.h"
 #include "index/file/color_source.h"
+#include "index/readers/formats/model_file.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
@@ -105,6 +106,17 @@ Config configure(const ExploreOptions& options) {
 void check_start(const ExploreOptions& options, const index::IndexFile& file, std::size_t steps) {
     if (options.step && *options.step >= steps)
         throw UsageError(fmt::format("--step: expected 0 to {}, got {}", steps - 1, *options.step));
+    for (const std::string& model : options.models) {
+        std::error_code error;
+        if (!index::is_model_name(model))
+            throw UsageError(fmt::format("--model: expected a file of {}, got {}",
+                                         index::model_extensions(), model));
+        if (!index::is_model_series(model) && !std::filesystem::is_regular_file(model, error))
+            throw UsageError(fmt::format("--model: {}: there is no such file", model));
+    }
+    if (options.models.size() > interaction::kMostModels)
+        throw UsageError(fmt::format("--model: {} models, expected at most {}",
+                                     options.models.size(), interaction::kMostModels));
     if (options.isovalue)
         warn_beyond(*options.isovalue, file.array(first_array(options, file)));
 }

@@ -4,6 +4,7 @@
 #include "app/config/first_placement.h"
 #include "app/explore/explore_start.h"
 #include "app/explore/kept_session.h"
+#include "app/explore/replay_source.h"
 #include "app/explore/series_movie.h"
 #include "app/indexing/open_index.h"
 #include "app/loop/replay.h"
@@ -90,8 +91,10 @@ class PanelDrawing {
         const auto file = open_index_to_show(data_, config.memory.cache_bytes());
         Session session(config, file, stereo::open_windows(context, config.installation, {}));
         session.set_data_name(data_.filename().string());
+        session.models().add_folder(std::filesystem::path(where_).parent_path());
         session.set_state(state_for(session, config, *file));
         settle(session);
+        say_faults(session.models());
         return drawn(session, *file, pixels, text, points);
     }
 

@@ -37,6 +37,11 @@ void add_replay_source(Command& command, ReplaySource& source, const std::string
                 "Number of samples per pixel (default: as configured, or 4)")
         .between(1, 64)
         .type_name("COUNT");
+    command
+        .option("--model", source.models,
+                "Let the recording show this file of triangles, though it lies outside of the "
+                "folders of recording and data; may be given several times")
+        .type_name("FILE");
     command.flag("--emulate", source.emulate,
                  "Show the whole room from outside, with the picture on every wall");
     command.option("--stereo", source.stereo, "Stereo mode to use instead of the recorded one")
@@ -172,6 +177,17 @@ stereo::Windows windows_of(const ReplaySource& options, const Config& config,
                              config.installation.windows.front().stereo),
                          .rank = job.rank(),
                          .ranks = job.size()});
+}
+
+void let_show_models(const ReplaySource& options, Session& session) {
+    session.models().add_folder(fs::path(options.recording).parent_path());
+    for (const std::string& file : options.models)
+        session.models().allow(fs::absolute(file));
+}
+
+void say_faults(const ModelSupply& models) {
+    for (const std::string& line : models.faults())
+        print_note("{}", line);
 }
 
 ReplayOptions replay_options(const ReplaySource& options) {

@@ -25,6 +25,7 @@ struct ReplaySource {
     std::optional<std::string> background;
     std::optional<double> dpi;
     std::vector<int> size;
+    std::vector<std::string> models; ///< files of triangles that may be opened
 };
 
 /// Adds these options to a command. @param source lives until the command has run
@@ -55,6 +56,11 @@ std::string other_data(const interaction::RecordingHeader& header, const index::
 /// @throws render::Error
 stereo::Windows windows_of(const ReplaySource& options, const Config& config,
                            const interaction::RecordingHeader& header, const ClusterJob& job);
+
+/// Lets models be opened that lie in the recording's folder, and those of the options.
+void let_show_models(const ReplaySource& options, Session& session);
+/// Says on stderr why models are not shown.
+void say_faults(const ModelSupply& models);
 
 /// What the options show differently from the recording.
 ReplayOptions replay_options(const ReplaySource& options);

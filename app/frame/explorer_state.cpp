@@ -285,6 +285,7 @@ interaction::Commands ExplorerState::way_to_start(const ExplorerState& start) co
     way.tools.reset();
     way.steps.reset();
     way.follow.reset();
+    way.models.reset();
     return way;
 }
 

@@ -2,9 +2,11 @@
 #include "app/loop/data_opening.h"
 
 #include "app/config/series_names.h"
+#include "index/readers/formats/model_file.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 #include <variant>
@@ -24,7 +26,10 @@ void DataOpening::update(Session& session, const std::string& why_stay) {
             session.show_messages({words});
     };
     const auto open = [&](const std::filesystem::path& data) {
-        say(why_stay.empty() ? begin(data) : why_stay);
+        if (index::is_model_name(data))
+            say(session.show_model(data));
+        else
+            say(why_stay.empty() ? begin(data) : why_stay);
     };
     if (const auto chosen = session.panel().take_chosen())
         open(*chosen);
@@ -33,7 +38,12 @@ void DataOpening::update(Session& session, const std::string& why_stay) {
         if (why_stay.empty())
             next_data_ = NextData{{}, *array};
     }
-    const auto dropped = session.outputs().windows().first().take_dropped();
+    auto dropped = session.outputs().windows().first().take_dropped();
+    const auto models = std::ranges::stable_partition(
+        dropped, [](const auto& file) { return !index::is_model_name(file); });
+    for (const std::filesystem::path& model : models)
+        open(model);
+    dropped.erase(models.begin(), models.end());
     if (const auto name = one_name_of(dropped))
         open(*name);
     else if (!dropped.empty())

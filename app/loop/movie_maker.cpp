@@ -148,6 +148,8 @@ void MovieMaker::start() {
         words.insert(words.end(),
                      {"--size", std::to_string(manner_.width), std::to_string(manner_.height)});
     words.insert(words.end(), orders_.options.begin(), orders_.options.end());
+    for (const std::string& model : manner_.models)
+        words.insert(words.end(), {"--model", model});
     std::vector<char*> arguments;
     for (std::string& word : words)
         arguments.push_back(word.data());

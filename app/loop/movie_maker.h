@@ -32,6 +32,7 @@ struct MovieManner {
     std::filesystem::path folder = {};   ///< empty: the one of the orders
     double rate = 30.0;                  ///< pictures a second
     std::uint32_t width = 0, height = 0; ///< [pixel], 0: as it was seen
+    std::vector<std::string> models = {}; ///< files that the user has let be opened
 };
 
 /// Makes one movie at a time: `isochron_movie_0001.mp4` and so on. The recording that it is made of

@@ -82,7 +82,8 @@ void PanelMovies::place_pictures(Session& session) {
 void PanelMovies::after_frame(Session& session, const LiveFrame&) {
     place_pictures(session);
     const interaction::WrittenPictures& how = session.state().pictures;
-    const MovieManner manner{how.folder, how.rate, how.width, how.height};
+    const MovieManner manner{how.folder, how.rate, how.width, how.height,
+                             session.models().allowed(session.state())};
     const std::optional<MovieWish> wish = session.panel().take_wanted_movie();
     if (wish == MovieWish::record)
         begin_or_end_recording(session);

@@ -27,7 +27,9 @@ class SessionControl final : public Companion {
     void set_wake(std::function<void()> wake) override { desk_.set_loop_wake(std::move(wake)); }
     void before_frame(Session& session, const interaction::Commands&,
                       interaction::Commands& asked) override {
-        interaction::merge(asked, take(session));
+        const interaction::Commands told = take(session);
+        session.models().allow_those_of(told); // its clients are programs of this user
+        interaction::merge(asked, told);
     }
     void after_frame(Session& session, const LiveFrame& frame) override {
         tell(session, frame.drawn);

@@ -5,6 +5,7 @@
 #include "app/text.h"
 #include "index/lower_case.h"
 #include "index/readers/formats/format.h"
+#include "index/readers/formats/model_file.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -26,7 +27,8 @@ constexpr std::size_t kMostListed = 5000;
 /// Whether a file, or a folder that is one volume, is one that the program reads, by its name.
 bool is_readable(const std::string& name, bool folder) {
     return index::has_known_end(name, folder) ||
-           (!folder && index::lower_case(name).ends_with(".isochron"));
+           (!folder && (index::lower_case(name).ends_with(".isochron") ||
+                        index::is_model_name(name)));
 }
 
 ListedFile line_of(const fs::path& path, std::string name) {

@@ -261,7 +261,7 @@ std::optional<fs::path> FileWindow::draw() {
     ImGui::SetNextWindowSize({std::min(0.96f * picture.x, 720.0f), 0.84f * picture.y});
     if (std::exchange(fresh_, false))
         ImGui::SetNextWindowFocus();
-    ImGui::Begin("Open data (Ctrl + O), or drop a file here###files", &shown_,
+    ImGui::Begin("Open data or a model (Ctrl + O), or drop a file here###files", &shown_,
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoSavedSettings);
     std::optional<fs::path> chosen = draw_path();

@@ -96,6 +96,19 @@ struct PanelCurves {
     std::function<void()> save{};         ///< writes them as a table; empty: that is not offered
 };
 
+/// A model as it is listed, beside what its setting says.
+struct ListedModel {
+    std::string words; ///< how large it is; empty: nothing is known
+    std::string fault; ///< why it is not shown; empty: it is, or it will be
+    bool refused = false; ///< it is not opened unless the user allows it
+};
+
+/// Files of triangles, in the order of their settings.
+struct PanelModels {
+    std::vector<ListedModel> lines{};
+    std::function<void(const std::string& path)> allow{}; ///< opens a refused one
+};
+
 /// A session on the same data that the user can go on with.
 struct OfferedSession {
     std::string words; ///< its name, when it was saved, and whether it is dropped next
@@ -136,6 +149,7 @@ struct PanelModel {
     PanelColors colors{};
     PanelWork work{};
     PanelCurves curves{};
+    PanelModels models{};
     PanelNotes notes{};
     bool recording = false;
     MovieState movies{};

@@ -330,6 +330,13 @@ constexpr OtherNames kOtherNames[] = {
     {"array", "variable, scalar, scalars, active scalars, field, channel, quantity, component, "
               "contour by, layer, attribute, dataset"},
     {"next_array", "next variable, switch variable, other field, next layer"},
+    {"open_model", "open mesh, load mesh, import mesh, stl, ply, obj, vtp, gltf, glb, geometry, "
+                   "coastline, bone, segmentation, cad, triangles, "
+                   "polygons, model"},
+    {"model", "hide mesh, show mesh, hide model, show model, hull, context"},
+    {"model_edges", "wireframe, mesh lines, edges of a model, surface with edges"},
+    {"model_opacity", "transparent hull, transparent mesh, see through model"},
+    {"remove_models", "close mesh, no model, delete model, remove mesh"},
     {"undo", "take back, revert, go back, undo camera, previous view"},
     {"redo", "do again, repeat change, restore change"},
     {"panel",
@@ -758,6 +765,58 @@ void add_tools(Lines& lines) {
     }
 }
 
+/// The models, each by the name of its file.
+void add_models(Lines& lines) {
+    const std::vector<KeyCommand>& keys = key_commands();
+    const auto opens =
+        std::ranges::find(keys, std::string_view("open_data"), &KeyCommand::found_as);
+    if (opens != keys.end())
+        lines.add({.name = "open_model",
+                   .words = "open a model: a file of triangles beside the surfaces",
+                   .key = opens->name,
+                   .press = &*opens,
+                   .in_room = opens->in_room});
+    const std::vector<interaction::Model>& models = lines.model().asked.models;
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        const std::string name = std::filesystem::path(models[i].path).filename().string();
+        const auto with = [&models, i](const auto& change) {
+            Commands commands;
+            commands.models = models;
+            change((*commands.models)[i]);
+            return commands;
+        };
+        const auto add = [&](const char* control, std::string words, bool interaction::Model::*on) {
+            lines.add(
+                {.name = fmt::format("{}={}", control, name),
+                 .words = std::move(words),
+                 .others = std::string(other_names(control)),
+                 .value = models[i].*on ? "on" : "off",
+                 .commands = with([on](interaction::Model& each) { each.*on = !(each.*on); })});
+        };
+        add("model", fmt::format("model {}: shown", name), &interaction::Model::shown);
+        add("model_edges", fmt::format("model {}: edges, not faces", name),
+            &interaction::Model::lines);
+        const auto opaque = [with](double opacity) {
+            return with([opacity](interaction::Model& each) {
+                each.opacity = static_cast<float>(opacity);
+            });
+        };
+        const double opacity = models[i].opacity;
+        lines
+            .add({.name = fmt::format("model_opacity={}", name),
+                  .words = fmt::format("model {}: opacity", name),
+                  .others = std::string(other_names("model_opacity")),
+                  .value = percent(opacity),
+                  .commands = opaque(opacity < 1 ? 1.0 : kSeenThrough)})
+            .with_number = [opaque](double number) {
+            return NumberEffect{percent(share_of(number)), opaque(share_of(number))};
+        };
+    }
+    if (!models.empty())
+        lines.add({.name = "remove_models", .words = "remove the models"}).commands.models =
+            std::vector<interaction::Model>();
+}
+
 /// The drawer of curves, opened with a measure.
 void add_curves(Lines& lines) {
     const ExplorerState& asked = lines.model().asked;
@@ -1024,6 +1083,7 @@ std::vector<SearchLine> search_lines(const PanelModel& model) {
     add_tools(lines);
     add_time(lines);
     add_curves(lines);
+    add_models(lines);
     add_pictures(lines);
     add_data(lines);
     return lines.take();

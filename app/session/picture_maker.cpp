@@ -158,6 +158,7 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
         .values = shown_values(state),
         .surfaces = !state.slices.hides_surfaces(),
         .slices = shown_slices(slices_.shown(), state, frame.file),
+        .beside = models_.shown(state),
         .look = state.look,
         .scale = shown_scale(state),
         .bounding_box = state.bounding_box,

@@ -11,7 +11,9 @@
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace isochron::app {
@@ -28,8 +30,8 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
       panel_(config_, outputs_), picker_(file),
       supply_(config_, file, scene_.cells(), std::move(extract),
               render::CellBuffers::wanted_shading(outputs_.gl())),
-      slices_(file),
-      pictures_(config_, arrays_, scene_.cells(), outputs_, panel_, picker_, slices_),
+      slices_(file), models_(file->name()),
+      pictures_(config_, arrays_, scene_.cells(), outputs_, panel_, picker_, slices_, models_),
       choice_(config_, outputs_, log_, scene_, supply_, pictures_),
       partial_(scene_, outputs_, choice_.quality()), samples_(scene_, outputs_, choice_.quality()),
       nothing_(arrays_, outputs_) {
@@ -78,7 +80,7 @@ interaction::ControlContext Session::control_context(const interaction::Ways& wa
                        .times = &times_.at,
                        .gaps = &times_.gaps,
                        .pivot = physical_center(arrays_.file()->info().grid),
-                       .home = home_.room_from_physical},
+                       .home = home_with_models().room_from_physical},
             .color_arrays = {&arrays_.color_names(), color_array(state_, *arrays_.file())},
             .called_panel = {panel_.in_room().distance(), panel_.place()},
             .ways = ways,
@@ -91,7 +93,7 @@ interaction::ControlContext Session::control_context(const interaction::Ways& wa
 
 Commands Session::commands_from(const interaction::InputState& input) {
     const std::size_t arrays = arrays_.names().size();
-    const Commands start = state_.way_to_start(home_);
+    const Commands start = state_.way_to_start(home_with_models());
     std::optional<Commands> next_array;
     if (arrays > 1)
         next_array = way_to_array((arrays_.number(state_) + 1) % arrays);
@@ -138,12 +140,49 @@ interaction::InputState Session::seen(const interaction::InputState& input, cons
     return seen;
 }
 
+/// The start, seen from so far that models are as much in view as the data were.
+ExplorerState Session::home_with_models() const {
+    ExplorerState home = home_;
+    const index::Grid& grid = arrays_.file()->info().grid;
+    const auto data = models_.box({}, grid), all = models_.box(state_, grid);
+    if (all == data)
+        return home;
+    interaction::Similarity& place = home.room_from_physical;
+    const glm::dvec3 middle = interaction::transform(place, physical_center(grid));
+    const glm::dvec3 wider = interaction::transform(place, 0.5 * all[0] + 0.5 * all[1]);
+    place = interaction::scaled(
+        interaction::moved(place, middle - wider), middle,
+        glm::distance(data[0], data[1]) / glm::distance(all[0], all[1]), 0.0, place.scale);
+    return home;
+}
+
 /// Where the data lie to the viewer as they did at the start.
 interaction::Similarity Session::all_in_view(const Audience& audience) const {
     const interaction::Pose first{config_.installation.viewers.front().position, {1, 0, 0, 0}};
-    return audience.viewers.empty() ? home_.room_from_physical
-                                    : interaction::carried(home_.room_from_physical, first,
-                                                           audience.viewers.front().head);
+    const interaction::Similarity home = home_with_models().room_from_physical;
+    return audience.viewers.empty()
+               ? home
+               : interaction::carried(home, first, audience.viewers.front().head);
+}
+
+std::string Session::show_model(const std::filesystem::path& file) {
+    std::vector<interaction::Model> models = state_.models;
+    const std::string path = models_.allow(file);
+    const auto there = std::ranges::find(models, path, &interaction::Model::path);
+    if (there != models.end())
+        there->shown = true;
+    else if (models.size() == interaction::kMostModels)
+        return fmt::format("{}: not shown: {} models are shown, expected fewer", file.string(),
+                           models.size());
+    else if (path.size() > interaction::kLongestArrayName)
+        return fmt::format("{}: not shown: a path of {} bytes, expected at most {}", file.string(),
+                           path.size(), interaction::kLongestArrayName);
+    else
+        models.push_back({.path = path});
+    Commands commands;
+    commands.models = std::move(models);
+    panel_.add(commands);
+    return {};
 }
 
 PanelModel Session::panel_model(const FrameReport& report) {
@@ -169,6 +208,8 @@ PanelModel Session::panel_model(const FrameReport& report) {
                      .searching = supply_.extractor().busy(),
                      .survey = nothing_.survey()},
             .curves = curves_.in_panel(state_),
+            .models = {.lines = models_.listed(state_),
+                       .allow = [this](const std::string& path) { models_.allow(path); }},
             .notes = {.failure = failure(), .empty = nothing_.why()},
             .controls = controls,
             .at_hand = kinds_at_hand(!config_.devices.empty() || outputs_.headset(), note_.input),
@@ -304,7 +345,7 @@ bool Session::is_settled(const Frame& frame) const {
     return frame.is_live() && frames_->alone() && report.final && !plan_.state.is_held() &&
            report.footprint == render::Footprint::surface && !report.moved && !report.extracting &&
            !plan_.state.draws_ahead() && !state_.playback.playing && !supply_.set_comes() &&
-           !slices_.come() && scene_.cells().is_complete();
+           !slices_.come() && !models_.come() && scene_.cells().is_complete();
 }
 
 bool Session::samples_come_later() const {
@@ -350,7 +391,7 @@ FrameAnswer Session::answer() const {
 
 CaptureView Session::capture_view(const FrameReport& frame) const {
     CaptureView view = CaptureView::of(frame, frames_->has_no_answer(supply_.extractor()));
-    if (samples_.are_missing() || slices_.come()) {
+    if (samples_.are_missing() || slices_.come() || models_.come()) {
         view.final = false;
         view.improves = true;
     }
@@ -397,6 +438,7 @@ void Session::obey(const Commands& commands, const interaction::InputState& inpu
 void Session::set_wake(const std::function<void()>& wake) {
     supply_.set_wake(wake);
     slices_.set_wake(wake);
+    models_.set_wake(wake);
     picker_.set_wake(wake);
     nothing_.set_wake(wake);
     curves_.set_wake(wake);
@@ -408,7 +450,7 @@ void Session::set_wake(const std::function<void()>& wake) {
 FrameOutlook Session::outlook() const {
     const FrameReport& last = log_.frames().back();
     const FrameOutlook picture{
-        .busy = state_.playback.playing || last.extracting || slices_.come() ||
+        .busy = state_.playback.playing || last.extracting || slices_.come() || models_.come() ||
                 partial_.are_made() || (samples_.are_missing() && !samples_come_later()) ||
                 captures_.wanted() > 0 || last.comfort != interaction::ComfortState{},
         .changed = contents_.changed() || last.uploaded != render::UploadCount{},
@@ -447,12 +489,14 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     supply_.request(frame);
     supply_.take_newest(frame);
     slices_.update(frame);
+    models_.update(frame);
     if (const auto& slices = slices_.shown(); !slices.empty())
         picker_.set_slices(slices, arrays_.file()->array(slices.front()->query.array).info());
     else
         picker_.set_slices({}, {});
     show_messages(supply_.take_messages());
     show_messages(slices_.take_messages());
+    show_messages(models_.take_messages());
     curves_.update(frame, arrays_, supply_.extractor());
     panel_.lay_out_room(state_, facts, report.time);
     Picture now = pictures_.make(frame, seen(rest, heads, report));
@@ -487,7 +531,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     show_messages(outputs_.pictures().messages());
     show_messages(picker_.messages());
     show_messages(curves_.messages());
-    report.extracting |= supply_.extractor().busy() || slices_.come();
+    report.extracting |= supply_.extractor().busy() || slices_.come() || models_.come();
     report.processor = processor_time() - worked;
     report.total = whole.lap();
     log_.add(report);

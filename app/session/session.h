@@ -8,6 +8,7 @@
 #pragma once
 
 #include "app/choice/cell_supply.h"
+#include "app/choice/model_supply.h"
 #include "app/choice/partial_pictures.h"
 #include "app/choice/settled_samples.h"
 #include "app/choice/slice_supply.h"
@@ -35,6 +36,7 @@
 #include "index/extraction/extractor.h"
 #include "interaction/controls/controls.h"
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -176,6 +178,12 @@ class Session {
     /// Scale of all colors.
     std::optional<ColorScale> scale() const { return pictures_.scale(state_); }
 
+    /// The files of triangles beside the surfaces, and which may be opened.
+    ModelSupply& models() { return models_; }
+    const ModelSupply& models() const { return models_; }
+    /// Shows a file of triangles from the next frame on. @return why it cannot; empty: it will be read
+    std::string show_model(const std::filesystem::path& file);
+
     /// Why the newest query could not be answered; empty when all is well.
     std::string failure() const { return frames_->failure(supply_.extractor()); }
     /// The windows or headset that show the frames, and write pictures.
@@ -203,6 +211,7 @@ class Session {
     void show_again(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay,
                     const SessionPanel::Facts& facts);
     void draw_aids();
+    ExplorerState home_with_models() const;
     interaction::Similarity all_in_view(const Audience& audience) const;
     bool is_settled(const Frame& frame) const;
     bool samples_come_later() const; ///< behind what is still to be prepared
@@ -225,6 +234,7 @@ class Session {
     FrameLog log_;
     CellSupply supply_;
     SliceSupply slices_;
+    ModelSupply models_;
     PictureMaker pictures_;
     FramePlanner choice_;
     PartialPictures partial_;

@@ -53,5 +53,5 @@ index::DecodedPicture read_picture(const std::filesystem::path& path, bool pixel
 } // namespace isochron::stereo::image_module
 
 int main() {
-    return isochron::index::run_reader({}, nullptr, isochron::stereo::image_module::read_picture);
+    return isochron::index::run_reader({}, {.picture = isochron::stereo::image_module::read_picture});
 }

@@ -5,6 +5,7 @@
 
 #include "index/error.h"
 #include "index/readers/decoders/decoders.h"
+#include "index/readers/decoders/model/model.h"
 #include "index/readers/decoders/reader_service.h"
 #include "index/readers/decoders/tiff/tiff_metadata.h"
 #include "index/readers/decoders/tiff/tiff_microscopes.h"
@@ -191,6 +192,30 @@ void fuzz_tiff_microscopes(Bytes input) {
     }
 }
 
+/// A letter for the format, then the file.
+void fuzz_model(Bytes input) {
+    if (input.empty())
+        return;
+    const auto parse = input[0] == 's'   ? index::stl_model
+                       : input[0] == 'p' ? index::ply_model
+                                         : index::obj_model;
+    try {
+        const index::TriangleMesh mesh =
+            index::finished(parse(std::as_bytes(input.subspan(1)), "m"), "m");
+        claim(!mesh.corners.empty() && mesh.corners.size() % 3 == 0, "a model has triangles");
+        claim(mesh.normals.size() == mesh.points.size(), "every point has a normal");
+        for (const std::uint32_t corner : mesh.corners)
+            claim(corner < mesh.points.size(), "a corner is a point");
+        for (std::size_t i = 0; i < mesh.points.size(); ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                claim(std::isfinite(mesh.points[i][axis]) && std::isfinite(mesh.normals[i][axis]) &&
+                          std::isfinite(mesh.origin[axis]),
+                      "places and normals are finite");
+    } catch (const index::Error& error) {
+        claim_one_line(index::in_one_line(error.what()));
+    }
+}
+
 } // namespace
 
 std::span<const Target> decoder_targets() {
@@ -200,7 +225,8 @@ std::span<const Target> decoder_targets() {
                                          Target{"tiff_description", fuzz_tiff_description},
                                          Target{"tiff_microscopes", fuzz_tiff_microscopes},
                                          Target{"vti", fuzz_vti},
-                                         Target{"pvd", fuzz_pvd}};
+                                         Target{"pvd", fuzz_pvd},
+                                         Target{"model", fuzz_model}};
     return kTargets;
 }
 

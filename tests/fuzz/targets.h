@@ -21,7 +21,7 @@ struct Target {
 std::span<const Target> volume_targets();
 
 /// What readers parse themselves: XDMF documents; Zarr hierarchies, as
-/// text with a line `@key` before each value, and as zip files; descriptions in TIFF files.
+/// text with a line `@key` before each value, and as zip files; descriptions in TIFF files; models.
 std::span<const Target> decoder_targets();
 
 /// Grids as VTK's readers may give them, from a row of choices, resampled and read; text that is

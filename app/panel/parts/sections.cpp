@@ -7,6 +7,7 @@
 #include "app/panel/panel_statistics.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/color_section.h"
+#include "app/panel/parts/model_lines.h"
 #include "app/panel/parts/named_list.h"
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/surfaces_section.h"
@@ -66,6 +67,7 @@ void data_section(const PanelModel& model, PanelPages& pages, Commands& commands
     text_row("size", fmt::format("{:.5g} x {:.5g} x {:.5g}{}", size.x, size.y, size.z,
                                  with_space(info.length_unit)));
     text_row("grid", grid_words(info));
+    model_lines(model, pages, commands);
     if (model.sessions.empty())
         return;
     row("sessions");

@@ -73,8 +73,7 @@ void refuse(MessageSocket& socket, std::string_view refused) {
 
 } // namespace
 
-int run_reader(std::span<const Decoder> decoders, ReadCollectionFile collection,
-               ReadPictureFile picture) {
+int run_reader(std::span<const Decoder> decoders, const OtherFiles& others) {
     int type = 0;
     socklen_t size = sizeof type;
     if (::getsockopt(kReaderSocket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {
@@ -90,7 +89,7 @@ int run_reader(std::span<const Decoder> decoders, ReadCollectionFile collection,
             refuse(socket, refused);
             ::_exit(1);
         }
-        serve(socket, decoders, collection, picture, take_denied_file);
+        serve(socket, decoders, others, take_denied_file);
     } catch (const Error&) {
         ::_exit(1); // the program knows which message it sent
     }

@@ -9,7 +9,6 @@ namespace isochron::index {
 
 /// What `main` of a reader calls: serves, behind the fence, the program that started it until that
 /// ends. @return exit status
-int run_reader(std::span<const Decoder> decoders, ReadCollectionFile collection = nullptr,
-               ReadPictureFile picture = nullptr);
+int run_reader(std::span<const Decoder> decoders, const OtherFiles& others = {});
 
 } // namespace isochron::index

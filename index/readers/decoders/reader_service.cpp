@@ -22,9 +22,8 @@ namespace {
 
 class Service {
   public:
-    Service(std::span<const Decoder> decoders, ReadCollectionFile collection,
-            ReadPictureFile picture, TakeDenied denied)
-        : decoders_(decoders), collection_(collection), picture_(picture), denied_(denied) {}
+    Service(std::span<const Decoder> decoders, const OtherFiles& others, TakeDenied denied)
+        : decoders_(decoders), others_(others), denied_(denied) {}
 
     /// The reply to a request, if it has one.
     std::optional<ReaderReply> answer(const ReaderRequest& request, Descriptor attached) {
@@ -77,18 +76,18 @@ class Service {
     std::optional<ReaderReply> answer_to(const ReadCollection& collection) {
         files_.clear();
         path_ = collection.path;
-        if (!collection_)
+        if (!others_.collection)
             throw Error("asked for a collection, which are for another reader");
-        return attempt([&]() -> ReaderReply { return Collected{collection_(collection.path)}; });
+        return attempt([&]() -> ReaderReply { return Collected{others_.collection(collection.path)}; });
     }
 
     std::optional<ReaderReply> answer_to(const ReadPicture& asked) {
         path_ = asked.path;
         pixels_.clear();
-        if (!picture_)
+        if (!others_.picture)
             throw Error("asked for a picture, which are for another reader");
         return attempt([&]() -> ReaderReply {
-            DecodedPicture found = picture_(asked.path, asked.pixels);
+            DecodedPicture found = others_.picture(asked.path, asked.pixels);
             pixels_ = std::move(found.rgba);
             return PictureRead{std::move(found.note), found.width, found.height};
         });
@@ -99,6 +98,31 @@ class Service {
         if (pixels_.empty() || pixels_.size() > shared.size())
             throw Error("asked for pixels that there are not, or to where there is no memory");
         std::ranges::copy(std::as_bytes(std::span(pixels_)), shared.begin());
+        return SlabRead{};
+    }
+
+    std::optional<ReaderReply> answer_to(const ReadModel& asked) {
+        path_ = asked.path;
+        model_ = {};
+        if (!others_.model)
+            throw Error("asked for a model, which are for another reader");
+        return attempt([&]() -> ReaderReply {
+            model_ = others_.model(asked.path);
+            return ModelRead{model_.origin, model_.points.size(), model_.corners.size()};
+        });
+    }
+
+    std::optional<ReaderReply> answer_to(const TakeModel& /*asked*/) {
+        auto shared = memory_ ? memory_->bytes() : std::span<std::byte>{};
+        for (const auto& part : {std::as_bytes(std::span(model_.points)),
+                                 std::as_bytes(std::span(model_.normals)),
+                                 std::as_bytes(std::span(model_.corners))}) {
+            if (part.empty() || part.size() > shared.size())
+                throw Error("asked for a model that there is not, or to where there is no memory");
+            std::ranges::copy(part, shared.begin());
+            shared = shared.subspan(part.size());
+        }
+        model_ = {};
         return SlabRead{};
     }
 
@@ -139,13 +163,13 @@ class Service {
     }
 
     std::span<const Decoder> decoders_;
-    ReadCollectionFile collection_;
-    ReadPictureFile picture_;
+    OtherFiles others_;
     TakeDenied denied_;
     std::filesystem::path path_; ///< the last file that was requested
     std::map<std::uint64_t, std::unique_ptr<DecodedFile>> files_; ///< by number
     std::unique_ptr<SharedMemory> memory_;
     std::vector<std::uint8_t> pixels_; ///< pixels of the last picture
+    TriangleMesh model_;               ///< the last one
     Descriptor attached_;
 };
 
@@ -164,11 +188,11 @@ std::string in_one_line(std::string message) {
     return message;
 }
 
-void serve(MessageSocket& socket, std::span<const Decoder> decoders, ReadCollectionFile collection,
-           ReadPictureFile picture, TakeDenied denied) {
+void serve(MessageSocket& socket, std::span<const Decoder> decoders, const OtherFiles& others,
+           TakeDenied denied) {
     if (!socket.send(encoded(ReaderReply(Ready{kReaderVersion}))))
         return;
-    Service service(decoders, collection, picture, denied);
+    Service service(decoders, others, denied);
     while (auto message = socket.receive()) {
         const auto reply =
             service.answer(request_from(message->bytes), std::move(message->attached));

@@ -3,6 +3,7 @@
 
 #include "index/readers/decoders/decoded_file.h"
 #include "index/readers/process/message_socket.h"
+#include "index/volume/triangle_mesh.h"
 
 #include <cstdint>
 #include <span>
@@ -29,6 +30,16 @@ struct DecodedPicture {
 /// @param pixels whether they are wanted, or the note alone @throws Error naming the file
 using ReadPictureFile = DecodedPicture (*)(const std::filesystem::path&, bool pixels);
 
+/// @throws Error naming the file
+using ReadModelFile = TriangleMesh (*)(const std::filesystem::path&);
+
+/// What a reader reads besides volumes; null: it does not.
+struct OtherFiles {
+    ReadCollectionFile collection = nullptr; ///< .pvd
+    ReadPictureFile picture = nullptr;
+    ReadModelFile model = nullptr; ///< files of triangles
+};
+
 /// The file that the fence has denied since the last call; empty if none, see denied_files.h.
 using TakeDenied = std::filesystem::path (*)();
 
@@ -36,11 +47,9 @@ using TakeDenied = std::filesystem::path (*)();
 std::string in_one_line(std::string message);
 
 /// Answers requests until the other end is closed.
-/// @param collection reads .pvd; null if this reader does not
-/// @param picture reads pictures; null if this reader does not
 /// @param denied null where nothing is denied; a request that needed a denied file is refused
 /// @throws Error when a message is invalid
-void serve(MessageSocket& socket, std::span<const Decoder> decoders, ReadCollectionFile collection,
-           ReadPictureFile picture = nullptr, TakeDenied denied = nullptr);
+void serve(MessageSocket& socket, std::span<const Decoder> decoders, const OtherFiles& others,
+           TakeDenied denied = nullptr);
 
 } // namespace isochron::index

@@ -70,6 +70,10 @@ void each_field(auto& bytes, Of<ReadPicture> auto& picture) {
     bytes(picture.path, picture.pixels);
 }
 void each_field(auto&, Of<TakePicture> auto&) {}
+void each_field(auto& bytes, Of<ReadModel> auto& model) {
+    bytes(model.path);
+}
+void each_field(auto&, Of<TakeModel> auto&) {}
 
 void each_field(auto& bytes, Of<Ready> auto& ready) {
     bytes(ready.version);
@@ -89,6 +93,10 @@ void each_field(auto& bytes, Of<Refused> auto& refused) {
 
 void each_field(auto& bytes, Of<PictureRead> auto& picture) {
     bytes(picture.note, picture.width, picture.height);
+}
+
+void each_field(auto& bytes, Of<ModelRead> auto& model) {
+    bytes(model.origin, model.points, model.corners);
 }
 
 template <class... Kinds>
@@ -123,7 +131,7 @@ Message message_from(std::span<const std::byte> bytes) {
 
 } // namespace
 
-const std::string kReaderVersion = ISOCHRON_VERSION " 8";
+const std::string kReaderVersion = ISOCHRON_VERSION " 9";
 
 std::vector<std::byte> encoded(const LeftReadable& readable) {
     MessageWriter bytes;

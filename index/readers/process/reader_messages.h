@@ -68,8 +68,19 @@ struct ReadPicture {
 /// `SlabRead`.
 struct TakePicture {};
 
+/// Asks for the triangles of a file. Answered by `ModelRead`.
+struct ReadModel {
+    std::filesystem::path path;
+};
+/// Asks for that model in the shared memory, once: its points, their normals, and the corners, as
+/// TriangleMesh has them. Answered by `SlabRead`.
+struct TakeModel {};
+
+/// Triangles that a model may have: 3 GB in memory at most.
+inline constexpr std::size_t kMostModelTriangles = std::size_t{1} << 26;
+
 using ReaderRequest = std::variant<OpenFile, UseMemory, ReadSlab, ReadCollection, CloseFile,
-                                   ReadPicture, TakePicture>;
+                                   ReadPicture, TakePicture, ReadModel, TakeModel>;
 
 /// Sent once to the reader, before any request: what its fence leaves readable. Not answered.
 struct LeftReadable {
@@ -96,13 +107,17 @@ struct PictureRead {
     std::string note;
     std::uint32_t width = 0, height = 0; ///< without pixels 0
 };
+struct ModelRead {
+    glm::dvec3 origin{0.0};
+    std::uint64_t points = 0, corners = 0;
+};
 /// The reply to any request that failed.
 struct Refused {
     std::string message; ///< one line that names the file, if one was asked for
 };
 
 using ReaderReply =
-    std::variant<Ready, Described, SlabRead, Collected, Closed, Refused, PictureRead>;
+    std::variant<Ready, Described, SlabRead, Collected, Closed, Refused, PictureRead, ModelRead>;
 
 /// The version that `Ready` must have, so that program and reader are of one build.
 extern const std::string kReaderVersion;

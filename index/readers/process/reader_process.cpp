@@ -131,7 +131,8 @@ void ReaderProcess::ask(const ReaderRequest& request) {
     if (open && locks)
         expect_unlocked(open->path);
     if (std::holds_alternative<OpenFile>(request) ||
-        std::holds_alternative<ReadCollection>(request))
+        std::holds_alternative<ReadCollection>(request) ||
+        std::holds_alternative<ReadModel>(request))
         ++files_;
     limit(request);
     send(request);
@@ -147,6 +148,8 @@ void ReaderProcess::limit(const ReaderRequest& request) try {
         budget_.emplace(process_, listed->path, limits_.memory);
     else if (const auto* picture = std::get_if<ReadPicture>(&request))
         budget_.emplace(process_, picture->path, limits_.memory).expect(kLargestPicture);
+    else if (const auto* model = std::get_if<ReadModel>(&request))
+        budget_.emplace(process_, model->path, limits_.memory);
 } catch (const Error& error) {
     fail(error.what());
 }

@@ -7,5 +7,5 @@
 int main() {
     using namespace isochron::index;
     constexpr std::array kDecoders{Decoder{"vti", decode_vti}};
-    return run_reader(kDecoders, decode_pvd);
+    return run_reader(kDecoders, {.collection = decode_pvd});
 }

@@ -39,7 +39,9 @@ std::vector<ReaderRequest> every_request() {
             UseMemory{4096},
             ReadSlab{7, {64, 32}, 1 << 20, 3},
             ReadCollection{"s.pvd"},
-            CloseFile{3}};
+            CloseFile{3},
+            ReadModel{"hull.stl"},
+            TakeModel{}};
 }
 
 std::vector<ReaderReply> every_reply() {
@@ -60,7 +62,8 @@ std::vector<ReaderReply> every_reply() {
             SlabRead{},
             Collected{{{"t0.vti", 0.0, "1"}, {"t1.vti", 1e300}}},
             Closed{},
-            Refused{"a.vti: no"}};
+            Refused{"a.vti: no"},
+            ModelRead{{1, 2e300, -3}, 4, 1ull << 40}};
 }
 
 // Encoding again shows every field, since all that is encoded is decoded or the end is not met.

@@ -1,0 +1,34 @@
+// Models: files of triangles, read in processes of their own.
+//
+//     const index::TriangleMesh hull = index::read_model("hull.stl");
+#pragma once
+
+#include "index/volume/triangle_mesh.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace isochron::index {
+
+/// Whether a file is a model by its extension.
+bool is_model_name(const std::filesystem::path& path);
+/// The extensions of models, for messages: `.stl, .ply, ...`
+std::string model_extensions();
+
+/// Whether a name stands for one file for each step, as `hull_*.stl` and `hull_%04d.stl` do.
+bool is_model_series(const std::filesystem::path& path);
+/// The file of a step, in the natural order of their names. @param steps of the data
+/// @throws Error: there are not as many files as steps, or this one is a link that leads out of the folder
+std::filesystem::path file_of_model_series(const std::filesystem::path& path, std::size_t step,
+                                           std::size_t steps);
+
+/// Reads behind the fence of readers: nothing but the file and what lies in its folder is readable there.
+/// Places are those of the file, with the origin that `isochron export` has subtracted from them.
+/// @param unit of length of the data, into which those of glTF come, which are in meters; else, and
+/// where the unit is not known, they stay as they are
+/// @throws Error naming the file, in one line: damaged, too large, no model by its name, or its
+/// reader is not installed
+TriangleMesh read_model(const std::filesystem::path& path, const std::string& unit = {});
+
+} // namespace isochron::index

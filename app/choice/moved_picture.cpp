@@ -46,7 +46,8 @@ double moved_by(const Picture& then, const Picture& now) {
 }
 
 bool may_be_moved(const Picture& exact, const Picture& now, const index::SurfacesQuery& asked) {
-    if (exact.footprint != render::Footprint::surface || !exact.cells ||
+    // What stands beside the cells may lie outside of the box that is moved.
+    if (exact.footprint != render::Footprint::surface || !exact.cells || !now.beside.empty() ||
         exact.cells->query.of_cells() != asked || !same_viewers(exact, now) ||
         moved_by(exact, now) > kMovedAtMost)
         return false;

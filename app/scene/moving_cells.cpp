@@ -28,6 +28,11 @@ void leave_out(render::CellAppearance& appearance, std::size_t surface) {
     appearance.surfaces[surface].opacity = 0.0f;
 }
 
+/// Whether what stands beside the cells has written depths.
+bool depths_beside(const Picture& picture) {
+    return !picture.slices.empty() || !picture.beside.empty();
+}
+
 bool has_several_samples(const render::Gl& gl) {
     GLint samples = 0;
     gl.GetIntegerv(GL_SAMPLES, &samples);
@@ -67,7 +72,7 @@ bool MovingCells::draw_moved(const CellsPicture& kept, const Picture& picture,
 void MovingCells::draw_in_few_pixels(const Cells& cells, const Picture& picture,
                                      std::span<const render::View> views) {
     const bool layers = moves_in_layers(picture, render::Footprint::quad);
-    if (layers && !picture.slices.empty()) // whose depths layers need
+    if (layers && depths_beside(picture)) // which layers need
         return draw_in_layers(cells, picture, render::Footprint::quad, views);
     enlarge_.begin(views, kCellResolutions[picture.resolution], cells.appearance.linear_light);
     if (layers)
@@ -119,7 +124,7 @@ void MovingCells::draw_in_layers(const Cells& cells, const Picture& picture,
             one.surfaces[surfaces[layer]].opacity = 1.0f;
             draw(one);
         },
-        some_opaque || !picture.slices.empty(), cells.appearance.linear_light, box_of(picture));
+        some_opaque || depths_beside(picture), cells.appearance.linear_light, box_of(picture));
 }
 
 void MovingCells::warm_up(const Picture& picture, std::span<const render::View> views,

@@ -6,11 +6,13 @@
 #include "app/scene/guides.h"
 #include "index/extraction/extraction.h"
 #include "index/extraction/slice_values.h"
+#include "index/volume/triangle_mesh.h"
 #include "index/volume/volume_series.h"
 #include "interaction/commands.h"
 #include "interaction/pointed.h"
 #include "interaction/tools/tool.h"
 #include "render/cells/footprints.h"
+#include "render/drawing/triangle_pass.h"
 #include "render/passes/veil_pass.h"
 #include "stereo/installation.h"
 
@@ -59,6 +61,13 @@ struct ShownSlice {
     bool operator==(const ShownSlice&) const = default;
 };
 
+/// Triangles that stand beside the surfaces: of a model.
+struct ShownTriangles {
+    index::TriangleMeshPtr mesh;
+    render::TriangleLook look;
+    bool operator==(const ShownTriangles&) const = default;
+};
+
 /// Everything that the eyes' pictures depend on.
 struct Picture {
     Audience audience;
@@ -74,9 +83,10 @@ struct Picture {
     std::size_t resolution = 0; ///< number of the cells' resolution: see `kCellResolutions`
     index::ExtractionPtr cells;
     std::vector<interaction::Isosurface> isosurfaces;
-    ShownValues values; ///< whose surfaces they are
-    bool surfaces = true;           ///< surfaces are drawn
-    std::vector<ShownSlice> slices; ///< beside them
+    ShownValues values;                 ///< whose surfaces they are
+    bool surfaces = true;               ///< surfaces are drawn
+    std::vector<ShownSlice> slices;     ///< beside them
+    std::vector<ShownTriangles> beside; ///< beside them, too
     interaction::Look look;
     bool transparent = false;        ///< nothing is drawn behind the data, whatever `look` says
     std::optional<ColorScale> scale; ///< empty: colors tell surfaces apart

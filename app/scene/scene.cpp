@@ -134,7 +134,7 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
     : gl_(gl), info_(info), configured_(config.rendering.appearance), cells_(gl, info.grid, config),
       kept_(gl), shape_(config.rendering.cell_shape),
       cell_pass_(gl, {.shape = shape_}, render::prelude_for(info.grid)), line_pass_(gl),
-      slice_pass_(gl, info.grid), text_pass_(gl, room_font), panel_pass_(gl), background_pass_(gl),
+      slice_pass_(gl, info.grid), triangle_pass_(gl, info.grid), text_pass_(gl, room_font), panel_pass_(gl), background_pass_(gl),
       moving_(gl, info.grid), veil_pass_(gl) {
     configured_.linear_light = blends_light(gl, config.rendering.blending);
     configured_.near_fade.reset();
@@ -203,6 +203,20 @@ void Scene::draw_slices(std::span<const render::View> views, const Picture& pict
     }
 }
 
+void Scene::draw_beside(std::span<const render::View> views, const Picture& picture,
+                        const render::Placement& placement,
+                        const render::CellAppearance& appearance, bool opaque,
+                        render::TriangleShare share) {
+    std::vector<index::TriangleMeshPtr> meshes;
+    for (const ShownTriangles& each : picture.beside)
+        meshes.push_back(each.mesh);
+    triangle_pass_.hold(meshes);
+    for (const ShownTriangles& each : picture.beside)
+        if ((each.look.opacity >= 1) == opaque)
+            for (const render::View& view : views)
+                triangle_pass_.draw(view, placement, *each.mesh, each.look, appearance, share);
+}
+
 render::Placement Scene::placement_of(const Picture& picture) const {
     return render::Placement::of(info_.grid, matrix(picture.room_from_physical));
 }
@@ -232,15 +246,23 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     const bool layers = is_whole && is_ready_to_move() && moving_.draws_layers(picture, footprint);
     const bool depth =
         moved || !picture.surfaces || (writes_depth(footprint, appearance) && !layers);
-    if (part.begins && !again && !moved)
+    if (appearance.near_fade && !views.empty()) // all views are of one viewer
+        appearance.near_fade->between_eyes = head_of(views.front(), picture.audience.viewers);
+    using Share = render::TriangleShare;
+    const auto beside = [&](bool opaque, Share share) {
+        draw_beside(views, picture, placement, appearance, opaque, share);
+    };
+    if (part.begins && !again && !moved) {
         draw_slices(views, picture, placement);
-    if (!depth && part.begins)
+        beside(true, Share::all);
+    }
+    if (!depth && part.begins) {
         draw_among_cells(views, picture, placement);
+        beside(false, Share::beyond);
+    }
     if (!moved && picture.surfaces &&
         render::CellPass::needs_corners(cells_.drawn(), footprint, appearance))
         cells_.compute_corners();
-    if (appearance.near_fade && !views.empty()) // all views are of one viewer
-        appearance.near_fade->between_eyes = head_of(views.front(), picture.audience.viewers);
     std::size_t done = 0;
     const MovingCells::Cells cells{cell_pass_, cells_.drawn(), appearance};
     const bool anew = !again && !moved;
@@ -256,6 +278,7 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
         return done;
     if (depth && part.keeps && anew && footprint == picture.footprint)
         kept_.keep(picture, views);
+    beside(false, depth ? Share::all : Share::before);
     if (depth)
         draw_among_cells(views, picture, placement);
     std::vector<CornerWords> corners;

@@ -21,6 +21,7 @@
 #include "render/passes/line_pass.h"
 #include "render/passes/panel_pass.h"
 #include "render/drawing/slice_pass.h"
+#include "render/drawing/triangle_pass.h"
 #include "render/passes/text_pass.h"
 #include "render/passes/veil_pass.h"
 
@@ -108,6 +109,10 @@ class Scene {
     const render::Texture& map_of(const ColorScale& scale);
     void draw_slices(std::span<const render::View> views, const Picture& picture,
                      const render::Placement& placement);
+    /// What stands beside the surfaces, before or after the cells are drawn.
+    void draw_beside(std::span<const render::View> views, const Picture& picture,
+                     const render::Placement& placement, const render::CellAppearance& appearance,
+                     bool opaque, render::TriangleShare share);
     void draw_among_cells(std::span<const render::View> views, const Picture& picture,
                           const render::Placement& placement);
     /// Legend, scale bar with axes, and caption of a view, as far as the picture has them.
@@ -154,6 +159,7 @@ class Scene {
     std::optional<FewWays> few_;
     render::LinePass line_pass_;
     render::SlicePass slice_pass_;
+    render::TrianglePass triangle_pass_;
     render::TextPass text_pass_;
     render::PanelPass panel_pass_;
     render::BackgroundPass background_pass_;

@@ -98,8 +98,13 @@ std::vector<std::uint32_t> far_first(std::span<const index::CellMeshPtr> meshes,
                 distances.push_back(glm::dot(at, ahead));
             }
         }
+    return far_first(distances, corners);
+}
+
+std::vector<std::uint32_t> far_first(std::span<const float> distances,
+                                     std::span<const std::uint32_t> corners) {
     if (distances.empty())
-        return corners;
+        return {};
     const auto [least, most] = std::ranges::minmax(distances);
     constexpr float kPlaces = 1 << 14;
     const float scale = most > least ? (kPlaces - 1) / (most - least) : 0.0f;

@@ -47,5 +47,8 @@ void append_in_order(const index::CellMesh& mesh, PlaneOrder order,
 std::vector<std::uint32_t> far_first(std::span<const index::CellMeshPtr> meshes,
                                      std::span<const std::size_t> first_vertices,
                                      const glm::vec4& ahead);
+/// Triangles of which the distances are known. @param corners three of each
+std::vector<std::uint32_t> far_first(std::span<const float> distances,
+                                     std::span<const std::uint32_t> corners);
 
 } // namespace isochron::render

@@ -17,6 +17,7 @@
 #include "render/passes/reproject_pass.h"
 #include "render/passes/sample_sum.h"
 #include "render/drawing/slice_pass.h"
+#include "render/drawing/triangle_pass.h"
 #include "render/passes/solid_pass.h"
 #include "render/passes/text_pass.h"
 #include "render/passes/veil_pass.h"
@@ -144,6 +145,7 @@ void make_all_passes(const Gl& gl) {
     const render::PanelPass panels(gl);
     const render::PicturePass pictures(gl);
     const render::SlicePass slices(gl, even), uneven_slices(gl, uneven);
+    const render::TrianglePass triangles(gl, even);
     const render::SolidPass solids(gl);
     const render::TextPass text(
         gl, render::GlyphAtlas{.size = {1, 1}, .coverage = {0}, .halo = {}, .glyphs = {}});

@@ -96,6 +96,12 @@ struct PanelCurves {
     std::function<void()> save{};         ///< writes them as a table; empty: that is not offered
 };
 
+/// The surfaces of other steps, in words.
+struct PanelGhosts {
+    std::string wished{}; ///< which there will be; empty: none
+    std::string shown{};  ///< which there are, and whether more are being made
+};
+
 /// A session on the same data that the user can go on with.
 struct OfferedSession {
     std::string words; ///< its name, when it was saved, and whether it is dropped next
@@ -136,6 +142,7 @@ struct PanelModel {
     PanelColors colors{};
     PanelWork work{};
     PanelCurves curves{};
+    PanelGhosts ghosts{};
     PanelNotes notes{};
     bool recording = false;
     MovieState movies{};

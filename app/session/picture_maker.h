@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/choice/frame.h"
+#include "app/choice/ghost_supply.h"
 #include "app/choice/slice_supply.h"
 #include "app/config/config.h"
 #include "app/output/outputs.h"
@@ -21,9 +22,9 @@ class PictureMaker {
     /// All outlive the maker.
     PictureMaker(const Config& config, const ShownArrays& arrays, const CellSets& sets,
                  const Outputs& outputs, const SessionPanel& panel, const Picker& picker,
-                 const SliceSupply& slices)
+                 const SliceSupply& slices, const GhostSupply& ghosts)
         : config_(config), arrays_(arrays), sets_(sets), outputs_(outputs), panel_(panel),
-          picker_(picker), slices_(slices) {}
+          picker_(picker), slices_(slices), ghosts_(ghosts) {}
 
     /// The picture of this frame, with the footprint of the last one.
     /// @param seen devices that the views are made from
@@ -71,6 +72,7 @@ class PictureMaker {
     const SessionPanel& panel_;
     const Picker& picker_;
     const SliceSupply& slices_;
+    const GhostSupply& ghosts_;
     mutable PercentileRange percentiles_; ///< keeps what it has sorted
     Aids over_;
     std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture

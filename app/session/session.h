@@ -8,6 +8,7 @@
 #pragma once
 
 #include "app/choice/cell_supply.h"
+#include "app/choice/ghost_supply.h"
 #include "app/choice/partial_pictures.h"
 #include "app/choice/settled_samples.h"
 #include "app/choice/slice_supply.h"
@@ -176,6 +177,9 @@ class Session {
     /// Scale of all colors.
     std::optional<ColorScale> scale() const { return pictures_.scale(state_); }
 
+    /// Surfaces of other steps beside those that are shown.
+    const GhostSupply& ghosts() const { return ghosts_; }
+
     /// Why the newest query could not be answered; empty when all is well.
     std::string failure() const { return frames_->failure(supply_.extractor()); }
     /// The windows or headset that show the frames, and write pictures.
@@ -206,6 +210,8 @@ class Session {
     interaction::Similarity all_in_view(const Audience& audience) const;
     bool is_settled(const Frame& frame) const;
     bool samples_come_later() const; ///< behind what is still to be prepared
+    /// Whether slices or ghosts are still to be made.
+    bool more_comes() const { return slices_.come() || ghosts_.come(); }
     PanelModel panel_model(const FrameReport& report);
     FrameAnswer answer() const;
 
@@ -225,6 +231,7 @@ class Session {
     FrameLog log_;
     CellSupply supply_;
     SliceSupply slices_;
+    GhostSupply ghosts_;
     PictureMaker pictures_;
     FramePlanner choice_;
     PartialPictures partial_;

@@ -109,6 +109,12 @@ struct PanelModels {
     std::function<void(const std::string& path)> allow{}; ///< opens a refused one
 };
 
+/// The surfaces of other steps, in words.
+struct PanelGhosts {
+    std::string wished{}; ///< which there will be; empty: none
+    std::string shown{};  ///< which there are, and whether more are being made
+};
+
 /// A session on the same data that the user can go on with.
 struct OfferedSession {
     std::string words; ///< its name, when it was saved, and whether it is dropped next
@@ -150,6 +156,7 @@ struct PanelModel {
     PanelWork work{};
     PanelCurves curves{};
     PanelModels models{};
+    PanelGhosts ghosts{};
     PanelNotes notes{};
     bool recording = false;
     MovieState movies{};

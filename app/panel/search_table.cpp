@@ -75,6 +75,17 @@ constexpr OtherNames kOtherNames[] = {
     {"transparency", "transparent, translucent, see through, semitransparent, ghost, x-ray, glass"},
     {"surface_color", "solid color, diffuse color, paint, recolor, tint, rgb, uniform color, "
                       "material color, color picker"},
+    {"ghost_count", "ghost, onion skin, onion skinning, trail, trails, motion trail, earlier and later "
+               "steps, other steps, several steps, two steps at once, two moments, compare steps, "
+               "compare times, overlay time steps, before and after, afterimage, echo"},
+    {"ghosts", "ghosts on, ghosts off, onion skin, onion skinning, trail, earlier and later steps"},
+    {"earlier_ghosts", "earlier steps, previous surface, previous steps, past, where it was, history, "
+                       "trail behind"},
+    {"later_ghosts", "later steps, next surface, future, where it goes, ahead"},
+    {"ghost_spacing", "onion skin spacing, distance of ghosts, every how many steps, stride of the "
+                      "trail"},
+    {"ghost_opacity", "fade ghosts, onion skin opacity, strength of the trail"},
+    {"remove_ghosts", "no ghosts, hide ghosts, onion skin off, no trail"},
     {"next_surface", "select surface, active surface, other surface"},
     {"histogram", "distribution, statistics, value distribution, mean, average, percentiles, "
                   "threshold from histogram"},
@@ -526,6 +537,65 @@ void add_surfaces(Lines& lines) {
                    .commands = without_surface(model, model.asked.picked)});
     lines.control("histogram", "histogram of the values",
                   range_text(model.stats.low, model.stats.high, unit), kSurfaces);
+}
+
+void add_ghosts(Lines& lines) {
+    const PanelModel& model = lines.model();
+    const interaction::Ghosts& now = model.asked.ghosts;
+    if (model.info.steps() < 2)
+        return;
+    using interaction::Ghosts;
+    const auto number = [&](const char* name, const char* words, std::string value,
+                            const auto& change) {
+        lines.control(name, words, std::move(value), kSurfaces).with_number =
+            [now, change](double typed) {
+                Ghosts changed = now;
+                NumberEffect effect{change(changed, typed), {}};
+                effect.commands.ghosts = changed;
+                return effect;
+            };
+    };
+    const auto count = [](double typed) {
+        return static_cast<std::uint32_t>(
+            std::clamp(std::round(typed), 0.0, double{interaction::kMostGhosts}));
+    };
+    const auto in_words = [](const Ghosts& ghosts) {
+        return fmt::format("{} earlier, {} later", ghosts.earlier, ghosts.later);
+    };
+    const auto every_words = [](std::uint32_t every) {
+        return every == 1 ? "each step" : fmt::format("every {} steps", every);
+    };
+    number("ghost_count", "ghosts: how many earlier and later steps", in_words(now),
+           [=](Ghosts& ghosts, double typed) {
+               ghosts.earlier = ghosts.later = count(typed);
+               return in_words(ghosts);
+           });
+    number("earlier_ghosts", "ghosts: earlier steps", fmt::format("{}", now.earlier),
+           [=](Ghosts& ghosts, double typed) {
+               ghosts.earlier = count(typed);
+               return in_words(ghosts);
+           });
+    number("later_ghosts", "ghosts: later steps", fmt::format("{}", now.later),
+           [=](Ghosts& ghosts, double typed) {
+               ghosts.later = count(typed);
+               return in_words(ghosts);
+           });
+    number("ghost_spacing", "ghosts: steps from one to the next", every_words(now.every),
+           [=](Ghosts& ghosts, double typed) {
+               ghosts.every = static_cast<std::uint32_t>(
+                   std::clamp(std::round(typed), 1.0, double{interaction::kWidestGhosts}));
+               return every_words(ghosts.every);
+           });
+    number("ghost_opacity", "ghosts: opacity", percent(double{now.opacity}),
+           [=](Ghosts& ghosts, double typed) {
+               ghosts.opacity = static_cast<float>(share_of(typed));
+               return percent(share_of(typed));
+           });
+    if (now.earlier + now.later > 0) {
+        Ghosts none = now;
+        none.earlier = none.later = 0;
+        lines.add({.name = "remove_ghosts", .words = "remove the ghosts"}).commands.ghosts = none;
+    }
 }
 
 void add_coloring(Lines& lines) {
@@ -1077,6 +1147,7 @@ std::vector<SearchLine> search_lines(const PanelModel& model) {
     add_way_out(lines);
     add_keys(lines);
     add_surfaces(lines);
+    add_ghosts(lines);
     add_coloring(lines);
     add_look(lines);
     add_view(lines);

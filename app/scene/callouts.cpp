@@ -1,6 +1,7 @@
 // Words beside places in the data, and room for them.
 #include "app/scene/callouts.h"
 
+#include "app/scene/caption.h"
 #include "app/scene/legend.h"
 #include "app/scene/mark.h"
 #include "interaction/navigation/navigation.h"
@@ -139,6 +140,7 @@ std::vector<Callout> callouts_of(const Picture& picture,
         return glm::vec3(interaction::transform(picture.room_from_physical, place));
     };
     const OverlayColors overlay = overlay_colors_on(picture.look.background);
+    const auto instant_of = [](const ShownGhost& ghost) { return ghost.surfaces->query.instant; };
     std::vector<Callout> callouts;
     if (const auto& mark = picture.mark.point)
         callouts.push_back({in_room(mark->position), mark_lines(*mark, info),
@@ -151,13 +153,18 @@ std::vector<Callout> callouts_of(const Picture& picture,
                                 CalloutSign::cross});
     for (const interaction::ToolLabel& label : picture.tools.labels)
         callouts.push_back({in_room(label.at), {label.text}, overlay.text, CalloutSign::none});
-    if (pointed && pointed->surface < picture.isosurfaces.size())
+    if (pointed && pointed->surface < picture.isosurfaces.size()) {
         callouts.push_back({in_room(pointed->point.position),
                             pointed_lines(*pointed, picture.isosurfaces.size(), info),
                             pointed->on_slice
                                 ? overlay.text
                                 : readable(picture.isosurfaces[pointed->surface].color, overlay),
                             CalloutSign::dot});
+        const index::Instant at = pointed->point.instant;
+        if (!pointed->on_slice &&
+            std::ranges::find(picture.ghosts, at, instant_of) != picture.ghosts.end())
+            callouts.back().lines.push_back("ghost: " + steps_text(at));
+    }
     return callouts;
 }
 

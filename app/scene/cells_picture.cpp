@@ -26,6 +26,7 @@ Picture without_lines(Picture picture) {
     picture.guides = {};
     picture.veil = {};
     picture.values = {};
+    picture.ghosts.clear();
     picture.bounding_box = false;
     picture.orientation = false;
     picture.caption.clear();

@@ -107,6 +107,16 @@ void write_surfaces(const Legend& legend, Layout& layout) {
         layout.write(legend.array, {0.0f, y});
 }
 
+/// The latest on top.
+void write_ghosts(const std::vector<LegendLine>& ghosts, Layout& layout) {
+    float y = layout.top() + (layout.top() > 0.0f ? 1.0f : 0.5f);
+    for (const LegendLine& ghost : ghosts) {
+        layout.fill_rimmed({0.0f, y - 0.4f}, {kBarWidth, 0.8f}, glm::vec4(ghost.color, 1.0f));
+        layout.write(ghost.words, {kBarWidth + 0.7f, y});
+        y += 1.3f;
+    }
+}
+
 } // namespace
 
 float text_height(const glm::ivec2& picture, float share) {
@@ -124,13 +134,14 @@ float line_scale(const glm::ivec2& picture, float share) {
 std::vector<render::ScreenQuad> legend_quads(const Legend& legend, const render::TextPass& text,
                                              const glm::ivec2& picture, float share) {
     const bool several = std::ranges::count_if(legend.surfaces, is_seen) > 1;
-    if (legend.scales.empty() && !several)
+    if (legend.scales.empty() && !several && legend.ghosts.empty())
         return {};
     Layout layout(text, picture, legend.overlay, share);
     for (const ColorScale& scale : legend.scales)
         write_scale(scale, layout);
     if (several)
         write_surfaces(legend, layout);
+    write_ghosts(legend.ghosts, layout);
     return layout.finish();
 }
 

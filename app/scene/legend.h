@@ -8,6 +8,7 @@
 #include "render/passes/text_pass.h"
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <optional>
 #include <span>
@@ -15,6 +16,12 @@
 #include <vector>
 
 namespace isochron::app {
+
+/// A line of the legend: a color, and what has it.
+struct LegendLine {
+    glm::vec3 color; ///< sRGB
+    std::string words;
+};
 
 struct Legend {
     std::span<const interaction::Isosurface>
@@ -24,6 +31,7 @@ struct Legend {
     bool colored = false;           ///< surfaces are colored by the first of them
     OverlayColors overlay{};
     std::string array{}; ///< that has the isovalues; stands over them where the scale is another's
+    std::vector<LegendLine> ghosts{}; ///< by time
 };
 
 /// Height of text in a picture [pixel], a whole number.

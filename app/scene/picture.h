@@ -5,6 +5,7 @@
 #include "app/scene/color_scale.h"
 #include "app/scene/guides.h"
 #include "index/extraction/extraction.h"
+#include "index/extraction/instant_surfaces.h"
 #include "index/extraction/slice_values.h"
 #include "index/volume/triangle_mesh.h"
 #include "index/volume/volume_series.h"
@@ -68,6 +69,15 @@ struct ShownTriangles {
     bool operator==(const ShownTriangles&) const = default;
 };
 
+/// Surfaces of another instant, and how they are shown.
+struct ShownGhost {
+    index::InstantSurfacesPtr surfaces;
+    std::vector<glm::vec3> colors; ///< by surface, sRGB
+    float opacity = 0;
+    bool earlier = false; ///< than the surfaces; else later
+    bool operator==(const ShownGhost&) const = default;
+};
+
 /// Everything that the eyes' pictures depend on.
 struct Picture {
     Audience audience;
@@ -87,6 +97,7 @@ struct Picture {
     bool surfaces = true;               ///< surfaces are drawn
     std::vector<ShownSlice> slices;     ///< beside them
     std::vector<ShownTriangles> beside; ///< beside them, too
+    std::vector<ShownGhost> ghosts;     ///< beside them, by time
     interaction::Look look;
     bool transparent = false;        ///< nothing is drawn behind the data, whatever `look` says
     std::optional<ColorScale> scale; ///< empty: colors tell surfaces apart

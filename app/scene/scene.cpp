@@ -13,6 +13,7 @@
 #include "render/gl/shader.h"
 #include "render/gl/viewport.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
@@ -117,6 +118,20 @@ OverlayColors overlay_of(const Picture& picture) {
     return overlay_colors_on(picture.look.background);
 }
 
+/// What the colors of the ghosts mean: those of the first surface that is seen.
+std::vector<LegendLine> lines_of_ghosts(const Picture& picture) {
+    std::vector<LegendLine> lines;
+    const auto seen = std::ranges::find_if(picture.isosurfaces,
+                                           [](const auto& surface) { return surface.opacity > 0; });
+    for (const ShownGhost& ghost : picture.ghosts)
+        if (seen != picture.isosurfaces.end())
+            lines.push_back(
+                {ghost.colors[static_cast<std::size_t>(seen - picture.isosurfaces.begin())],
+                 fmt::format("{}, {}", steps_text(ghost.surfaces->query.instant),
+                             ghost.earlier ? "earlier" : "later")});
+    return lines;
+}
+
 render::BoxLines box_in(const render::View& view, const Picture& picture,
                         const render::Placement& placement) {
     const glm::vec4 eye(view.eye_in_room(), 1.0f);
@@ -134,8 +149,9 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
     : gl_(gl), info_(info), configured_(config.rendering.appearance), cells_(gl, info.grid, config),
       kept_(gl), shape_(config.rendering.cell_shape),
       cell_pass_(gl, {.shape = shape_}, render::prelude_for(info.grid)), line_pass_(gl),
-      slice_pass_(gl, info.grid), triangle_pass_(gl, info.grid), text_pass_(gl, room_font), panel_pass_(gl), background_pass_(gl),
-      moving_(gl, info.grid), veil_pass_(gl) {
+      slice_pass_(gl, info.grid), triangle_pass_(gl, info.grid), ghost_pass_(gl, info.grid),
+      text_pass_(gl, room_font), panel_pass_(gl), background_pass_(gl), moving_(gl, info.grid),
+      veil_pass_(gl) {
     configured_.linear_light = blends_light(gl, config.rendering.blending);
     configured_.near_fade.reset();
     if (const glm::vec2 near = config.comfort.near_fade; near.y > 0)
@@ -217,6 +233,21 @@ void Scene::draw_beside(std::span<const render::View> views, const Picture& pict
                 triangle_pass_.draw(view, placement, *each.mesh, each.look, appearance, share);
 }
 
+void Scene::draw_ghosts(std::span<const render::View> views, const Picture& picture,
+                        const render::Placement& placement,
+                        const render::CellAppearance& appearance, render::TriangleShare share) {
+    std::vector<render::GhostMesh> meshes;
+    for (const ShownGhost& ghost : picture.ghosts)
+        for (std::size_t i = 0; i < ghost.colors.size(); ++i)
+            if (const index::CellMeshPtr& mesh = ghost.surfaces->meshes[i];
+                mesh && picture.isosurfaces[i].opacity > 0)
+                meshes.push_back({mesh, ghost.colors[i]});
+    ghost_pass_.hold(meshes);
+    for (const render::View& view : views)
+        if (!meshes.empty())
+            ghost_pass_.draw(view, placement, picture.ghosts.front().opacity, appearance, share);
+}
+
 render::Placement Scene::placement_of(const Picture& picture) const {
     return render::Placement::of(info_.grid, matrix(picture.room_from_physical));
 }
@@ -251,6 +282,8 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     using Share = render::TriangleShare;
     const auto beside = [&](bool opaque, Share share) {
         draw_beside(views, picture, placement, appearance, opaque, share);
+        if (!opaque)
+            draw_ghosts(views, picture, placement, appearance, share);
     };
     if (part.begins && !again && !moved) {
         draw_slices(views, picture, placement);
@@ -413,10 +446,10 @@ Scene::CornerWords Scene::words_in_corners(const render::View& view, const Pictu
         for (const ShownSlice& slice : picture.slices)
             if (std::ranges::find(scales, slice.scale) == scales.end())
                 scales.push_back(slice.scale);
-        words.legend =
-            legend_quads({picture.isosurfaces, info_.value_unit, scales,
-                          picture.scale && picture.surfaces, overlay, picture.values.array},
-                         text_pass_, view.size, share);
+        words.legend = legend_quads({picture.isosurfaces, info_.value_unit, scales,
+                                     picture.scale && picture.surfaces, overlay,
+                                     picture.values.array, lines_of_ghosts(picture)},
+                                    text_pass_, view.size, share);
     }
     if (picture.orientation)
         words.orientation =

@@ -20,6 +20,7 @@
 #include "render/passes/background_pass.h"
 #include "render/passes/line_pass.h"
 #include "render/passes/panel_pass.h"
+#include "render/drawing/ghost_pass.h"
 #include "render/drawing/slice_pass.h"
 #include "render/drawing/triangle_pass.h"
 #include "render/passes/text_pass.h"
@@ -113,6 +114,9 @@ class Scene {
     void draw_beside(std::span<const render::View> views, const Picture& picture,
                      const render::Placement& placement, const render::CellAppearance& appearance,
                      bool opaque, render::TriangleShare share);
+    void draw_ghosts(std::span<const render::View> views, const Picture& picture,
+                     const render::Placement& placement, const render::CellAppearance& appearance,
+                     render::TriangleShare share);
     void draw_among_cells(std::span<const render::View> views, const Picture& picture,
                           const render::Placement& placement);
     /// Legend, scale bar with axes, and caption of a view, as far as the picture has them.
@@ -160,6 +164,7 @@ class Scene {
     render::LinePass line_pass_;
     render::SlicePass slice_pass_;
     render::TrianglePass triangle_pass_;
+    render::GhostPass ghost_pass_;
     render::TextPass text_pass_;
     render::PanelPass panel_pass_;
     render::BackgroundPass background_pass_;

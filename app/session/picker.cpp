@@ -62,21 +62,31 @@ void Picker::set_slices(const std::vector<index::SliceValuesPtr>& slices,
 
 std::optional<Pointed> Picker::surface_hit(const index::Ray& ray, const ExplorerState& state,
                                            const index::ExtractionPtr& shown) const {
-    if (!shown || state.slices.hides_surfaces())
+    if (state.slices.hides_surfaces())
         return std::nullopt;
     const auto cuts = interaction::cutting_planes(state, data_frame(file_->info()));
     const auto seen = uncut(ray, cuts);
     if (!seen)
         return std::nullopt;
-    const auto hit = index::first_hit(*shown, file_->info().grid, *seen,
-                                      interaction::visible(state.isosurfaces));
-    const auto is_beyond = [&](const ClipPlane& cut) {
-        return cut.beyond(hit->at) > kOnPlane * glm::length(hit->at);
+    std::optional<Pointed> first;
+    double nearest = std::numeric_limits<double>::infinity();
+    const auto meet = [&](const auto& surfaces) {
+        const auto hit = index::first_hit(surfaces, file_->info().grid, *seen,
+                                          interaction::visible(state.isosurfaces));
+        const auto is_beyond = [&](const ClipPlane& cut) {
+            return cut.beyond(hit->at) > kOnPlane * glm::length(hit->at);
+        };
+        if (!hit || hit->along >= nearest || std::ranges::any_of(cuts, is_beyond))
+            return;
+        nearest = hit->along;
+        first = Pointed{{hit->at, surfaces.query.instant, surfaces.query.isovalues[hit->surface]},
+                        hit->surface};
     };
-    if (!hit || std::ranges::any_of(cuts, is_beyond))
-        return std::nullopt;
-    return Pointed{{hit->at, shown->query.instant, shown->query.isovalues[hit->surface]},
-                   hit->surface};
+    if (shown)
+        meet(*shown);
+    for (const index::InstantSurfacesPtr& ghost : ghosts_)
+        meet(*ghost);
+    return first;
 }
 
 std::optional<Pointed> Picker::slice_hit(const index::Ray& ray) const {

@@ -5,6 +5,7 @@
 #include "app/frame/explorer_state.h"
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extraction.h"
+#include "index/extraction/instant_surfaces.h"
 #include "index/extraction/slice_values.h"
 #include "index/file/index_file.h"
 #include "interaction/input/device_reading.h"
@@ -46,8 +47,11 @@ class Picker {
     void set_slices(const std::vector<index::SliceValuesPtr>& slices,
                     const index::SeriesInfo& info);
 
-    /// Where a ray first meets a slice, or a visible surface that is not cut away; empty if it meets
-    /// none.
+    /// Sets the ghosts that are shown.
+    void set_ghosts(const std::vector<index::InstantSurfacesPtr>& ghosts) { ghosts_ = ghosts; }
+
+    /// Where a ray first meets a slice, or a visible surface or ghost that is not cut away; empty if
+    /// it meets none.
     std::optional<interaction::Pointed> hit_by(const interaction::Pose& ray,
                                                const ExplorerState& state,
                                                const index::ExtractionPtr& shown) const;
@@ -84,6 +88,7 @@ class Picker {
 
     std::shared_ptr<const index::IndexFile> file_;
     std::vector<index::SliceValuesPtr> slices_;
+    std::vector<index::InstantSurfacesPtr> ghosts_;
     std::string sliced_, sliced_unit_; ///< the array of the slices
     interaction::ButtonLevels before_;
     interaction::Commands found_;

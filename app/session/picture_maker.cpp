@@ -159,6 +159,9 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
         .surfaces = !state.slices.hides_surfaces(),
         .slices = shown_slices(slices_.shown(), state, frame.file),
         .beside = models_.shown(state),
+        .ghosts =
+            shown_ghosts(ghosts_.shown(), state,
+                         sets_.shown() ? sets_.shown()->query.instant : frame.report.asked.instant),
         .look = state.look,
         .scale = shown_scale(state),
         .bounding_box = state.bounding_box,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/choice/frame.h"
+#include "app/choice/ghost_supply.h"
 #include "app/choice/model_supply.h"
 #include "app/choice/slice_supply.h"
 #include "app/config/config.h"
@@ -22,9 +23,9 @@ class PictureMaker {
     /// All outlive the maker.
     PictureMaker(const Config& config, const ShownArrays& arrays, const CellSets& sets,
                  const Outputs& outputs, const SessionPanel& panel, const Picker& picker,
-                 const SliceSupply& slices, const ModelSupply& models)
+                 const SliceSupply& slices, const ModelSupply& models, const GhostSupply& ghosts)
         : config_(config), arrays_(arrays), sets_(sets), outputs_(outputs), panel_(panel),
-          picker_(picker), slices_(slices), models_(models) {}
+          picker_(picker), slices_(slices), models_(models), ghosts_(ghosts) {}
 
     /// The picture of this frame, with the footprint of the last one.
     /// @param seen devices that the views are made from
@@ -73,6 +74,7 @@ class PictureMaker {
     const Picker& picker_;
     const SliceSupply& slices_;
     const ModelSupply& models_;
+    const GhostSupply& ghosts_;
     mutable PercentileRange percentiles_; ///< keeps what it has sorted
     Aids over_;
     std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture

@@ -30,8 +30,9 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
       panel_(config_, outputs_), picker_(file),
       supply_(config_, file, scene_.cells(), std::move(extract),
               render::CellBuffers::wanted_shading(outputs_.gl())),
-      slices_(file), models_(file->name()),
-      pictures_(config_, arrays_, scene_.cells(), outputs_, panel_, picker_, slices_, models_),
+      slices_(file), models_(file->name()), ghosts_(file),
+      pictures_(config_, arrays_, scene_.cells(), outputs_, panel_, picker_, slices_, models_,
+                ghosts_),
       choice_(config_, outputs_, log_, scene_, supply_, pictures_),
       partial_(scene_, outputs_, choice_.quality()), samples_(scene_, outputs_, choice_.quality()),
       nothing_(arrays_, outputs_) {
@@ -60,6 +61,7 @@ void Session::grow(std::shared_ptr<const index::IndexFile> file) {
     arrays_.set_file(file);
     picker_.set_file(arrays_.held(state_));
     slices_.set_file(file);
+    ghosts_.set_file(file);
     supply_.set_file(std::move(file));
 }
 
@@ -210,6 +212,7 @@ PanelModel Session::panel_model(const FrameReport& report) {
             .curves = curves_.in_panel(state_),
             .models = {.lines = models_.listed(state_),
                        .allow = [this](const std::string& path) { models_.allow(path); }},
+            .ghosts = {.wished = ghost_words(ghosts_.wished()), .shown = ghosts_.words()},
             .notes = {.failure = failure(), .empty = nothing_.why()},
             .controls = controls,
             .at_hand = kinds_at_hand(!config_.devices.empty() || outputs_.headset(), note_.input),
@@ -345,7 +348,7 @@ bool Session::is_settled(const Frame& frame) const {
     return frame.is_live() && frames_->alone() && report.final && !plan_.state.is_held() &&
            report.footprint == render::Footprint::surface && !report.moved && !report.extracting &&
            !plan_.state.draws_ahead() && !state_.playback.playing && !supply_.set_comes() &&
-           !slices_.come() && !models_.come() && scene_.cells().is_complete();
+           !more_comes() && scene_.cells().is_complete();
 }
 
 bool Session::samples_come_later() const {
@@ -391,7 +394,7 @@ FrameAnswer Session::answer() const {
 
 CaptureView Session::capture_view(const FrameReport& frame) const {
     CaptureView view = CaptureView::of(frame, frames_->has_no_answer(supply_.extractor()));
-    if (samples_.are_missing() || slices_.come() || models_.come()) {
+    if (samples_.are_missing() || more_comes()) {
         view.final = false;
         view.improves = true;
     }
@@ -439,6 +442,7 @@ void Session::set_wake(const std::function<void()>& wake) {
     supply_.set_wake(wake);
     slices_.set_wake(wake);
     models_.set_wake(wake);
+    ghosts_.set_wake(wake);
     picker_.set_wake(wake);
     nothing_.set_wake(wake);
     curves_.set_wake(wake);
@@ -450,7 +454,7 @@ void Session::set_wake(const std::function<void()>& wake) {
 FrameOutlook Session::outlook() const {
     const FrameReport& last = log_.frames().back();
     const FrameOutlook picture{
-        .busy = state_.playback.playing || last.extracting || slices_.come() || models_.come() ||
+        .busy = state_.playback.playing || last.extracting || more_comes() ||
                 partial_.are_made() || (samples_.are_missing() && !samples_come_later()) ||
                 captures_.wanted() > 0 || last.comfort != interaction::ComfortState{},
         .changed = contents_.changed() || last.uploaded != render::UploadCount{},
@@ -494,9 +498,12 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
         picker_.set_slices(slices, arrays_.file()->array(slices.front()->query.array).info());
     else
         picker_.set_slices({}, {});
+    ghosts_.update(frame, times_.gaps);
+    picker_.set_ghosts(ghosts_.shown());
     show_messages(supply_.take_messages());
     show_messages(slices_.take_messages());
     show_messages(models_.take_messages());
+    show_messages(ghosts_.take_messages());
     curves_.update(frame, arrays_, supply_.extractor());
     panel_.lay_out_room(state_, facts, report.time);
     Picture now = pictures_.make(frame, seen(rest, heads, report));
@@ -531,7 +538,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     show_messages(outputs_.pictures().messages());
     show_messages(picker_.messages());
     show_messages(curves_.messages());
-    report.extracting |= supply_.extractor().busy() || slices_.come() || models_.come();
+    report.extracting |= supply_.extractor().busy() || more_comes();
     report.processor = processor_time() - worked;
     report.total = whole.lap();
     log_.add(report);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "app/choice/cell_supply.h"
+#include "app/choice/ghost_supply.h"
 #include "app/choice/model_supply.h"
 #include "app/choice/partial_pictures.h"
 #include "app/choice/settled_samples.h"
@@ -183,6 +184,8 @@ class Session {
     const ModelSupply& models() const { return models_; }
     /// Shows a file of triangles from the next frame on. @return why it cannot; empty: it will be read
     std::string show_model(const std::filesystem::path& file);
+    /// Surfaces of other steps beside those that are shown.
+    const GhostSupply& ghosts() const { return ghosts_; }
 
     /// Why the newest query could not be answered; empty when all is well.
     std::string failure() const { return frames_->failure(supply_.extractor()); }
@@ -215,6 +218,8 @@ class Session {
     interaction::Similarity all_in_view(const Audience& audience) const;
     bool is_settled(const Frame& frame) const;
     bool samples_come_later() const; ///< behind what is still to be prepared
+    /// Whether slices or ghosts are still to be made.
+    bool more_comes() const { return slices_.come() || models_.come() || ghosts_.come(); }
     PanelModel panel_model(const FrameReport& report);
     FrameAnswer answer() const;
 
@@ -235,6 +240,7 @@ class Session {
     CellSupply supply_;
     SliceSupply slices_;
     ModelSupply models_;
+    GhostSupply ghosts_;
     PictureMaker pictures_;
     FramePlanner choice_;
     PartialPictures partial_;

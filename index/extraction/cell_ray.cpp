@@ -14,6 +14,7 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <span>
 
 namespace isochron::index {
 namespace {
@@ -303,7 +304,70 @@ std::optional<RayHit> first_hit_of_levels(const Extraction& shown, const Grid& g
     return nearest;
 }
 
+/// Whether a ray may meet something in a box before `nearest`.
+bool may_meet(const EvenRay& ray, const InstantSurfaces::Box& box, double nearest) {
+    double enter = 0, leave = nearest;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = box.low[axis] - ray.origin[axis],
+                     high = box.high[axis] - ray.origin[axis];
+        const double rate = ray.direction[axis];
+        if (rate == 0) {
+            if (low > 0 || high < 0)
+                return false;
+            continue;
+        }
+        enter = std::max(enter, std::min(low / rate, high / rate));
+        leave = std::min(leave, std::max(low / rate, high / rate));
+    }
+    return enter <= leave;
+}
+
+/// How far along a ray it passes through a triangle (T. Möller and B. Trumbore, "Fast, Minimum Storage
+/// Ray/Triangle Intersection", Journal of Graphics Tools 2 (1), 1997).
+std::optional<double> along_to(const std::array<glm::dvec3, 3>& corners, const EvenRay& ray) {
+    const glm::dvec3 a = corners[1] - corners[0], b = corners[2] - corners[0];
+    const glm::dvec3 across = glm::cross(ray.direction, b), from = ray.origin - corners[0];
+    const double volume = glm::dot(a, across);
+    if (volume == 0)
+        return std::nullopt;
+    const glm::dvec3 turned = glm::cross(from, a);
+    const double u = glm::dot(from, across) / volume, v = glm::dot(ray.direction, turned) / volume;
+    const double along = glm::dot(b, turned) / volume;
+    const bool inside = u >= -kSlack && v >= -kSlack && u + v <= 1 + kSlack && along >= 0;
+    return inside ? std::optional(along) : std::nullopt;
+}
+
 } // namespace
+
+std::optional<RayHit> first_hit(const InstantSurfaces& shown, const Grid& grid, const Ray& ray,
+                                std::uint32_t surfaces) {
+    const auto even = in_even(grid, ray);
+    if (!even)
+        return std::nullopt;
+    std::optional<RayHit> nearest;
+    const auto try_run = [&](std::size_t surface, std::span<const std::uint32_t> corners) {
+        const CellMesh& mesh = *shown.meshes[surface];
+        for (std::size_t i = 0; i < corners.size(); i += 3) {
+            std::array<glm::dvec3, 3> places;
+            for (std::size_t k = 0; k < 3; ++k)
+                places[k] = even_place_of(grid, mesh.vertices[corners[i + k]]);
+            if (const auto along = along_to(places, *even);
+                along && (!nearest || *along < nearest->along))
+                nearest = RayHit{surface, *along, ray.origin + *along * ray.direction};
+        }
+    };
+    constexpr std::size_t kCorners = 3 * InstantSurfaces::kRun;
+    for (std::size_t i = 0; i < shown.meshes.size(); ++i)
+        for (std::size_t k = 0; (surfaces >> i & 1) && k < shown.boxes[i].size(); ++k) {
+            const std::span<const std::uint32_t> all(shown.meshes[i]->triangles);
+            const double so_far =
+                nearest ? nearest->along : std::numeric_limits<double>::infinity();
+            if (may_meet(*even, shown.boxes[i][k], so_far))
+                try_run(i,
+                        all.subspan(kCorners * k, std::min(kCorners, all.size() - kCorners * k)));
+        }
+    return nearest;
+}
 
 std::optional<RayHit> first_hit(const Extraction& shown, const Grid& grid, const Ray& ray,
                                 std::uint32_t surfaces) {

@@ -359,6 +359,16 @@ std::vector<KeyLine> all_lines() {
             slices.alone = !slices.alone;
             p.commands.slices = slices;
         });
+    line("Ctrl + Shift + G", "ghosts, the surfaces of two earlier and two later steps: on, off");
+    add(ghosts, "ghosts", kNoOldBit, {{'G', kCtrlShift}}, kQuiet,
+        "ghosts: surfaces of earlier and later steps", [](const Press& p) {
+            constexpr std::uint32_t kUsual = 2; // in each direction of time
+            Ghosts ghosts = p.context.settings.ghosts;
+            ghosts.earlier = ghosts.later = ghosts.shown() ? 0 : kUsual;
+            if (!(ghosts.opacity > 0))
+                ghosts.opacity = Ghosts{}.opacity;
+            p.commands.ghosts = ghosts;
+        });
     line("Delete", removal_words());
     add(remove_made, "remove_made", 53, {Key::del}, kQuiet, "", remove_made_by_tool);
     line("Escape", "leave the tool, a list, a page, or loading");

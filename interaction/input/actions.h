@@ -106,6 +106,7 @@ enum class Action : std::uint8_t {
     slice_back,
     slices_alone,
     curves,
+    ghosts,
     count
 };
 /// Each tool can be chosen, too: those actions follow the others.

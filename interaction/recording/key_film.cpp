@@ -145,7 +145,7 @@ class KeyedTime {
     std::optional<KeyedNumber> number_;
 };
 
-/// Isovalues, colors and opacities of surfaces, and the planes.
+/// Isovalues, colors and opacities of surfaces, the planes, and the ghosts.
 class KeyedSurfaces {
   public:
     KeyedSurfaces(std::span<const KeyFrame> keys, const KeyScene& scene) {
@@ -157,6 +157,7 @@ class KeyedSurfaces {
         });
         clips_ = held_by<ClipPlane>(keys, [](const KeyFrame& key) { return key.clip; });
         slices_ = held_by<Slices>(keys, [](const KeyFrame& key) { return key.slices; });
+        ghosts_ = held_by<Ghosts>(keys, [](const KeyFrame& key) { return key.ghosts; });
         const auto& all = surfaces_.values;
         const auto differs = [&](const KeyFrame& key) {
             return key.array && *key.array != keys.front().array.value_or(scene.start.array);
@@ -190,6 +191,10 @@ class KeyedSurfaces {
         if (slices_.moves(slices))
             settings.slices =
                 between(*slices_.value(slices), slices_.values[slices.key + 1], slices);
+        const KeyPlace ghosts = ghosts_.place(time);
+        if (ghosts_.moves(ghosts))
+            settings.ghosts =
+                between(*ghosts_.value(ghosts), ghosts_.values[ghosts.key + 1], ghosts);
     }
 
   private:
@@ -226,9 +231,20 @@ class KeyedSurfaces {
         return from;
     }
 
+    /// Those that come fade in, and those that go fade out.
+    static Ghosts between(const Ghosts& from, const Ghosts& to, const KeyPlace& place) {
+        if (!from.shown() && !to.shown())
+            return from;
+        Ghosts ghosts = from.shown() ? from : to;
+        ghosts.opacity = std::lerp(from.shown() ? from.opacity : 0.0f,
+                                   to.shown() ? to.opacity : 0.0f, eased(place));
+        return ghosts;
+    }
+
     Held<std::vector<Isosurface>> surfaces_;
     Held<ClipPlane> clips_;
     Held<Slices> slices_;
+    Held<Ghosts> ghosts_;
     std::vector<KeyedNumber> isovalues_; ///< for each surface; empty: they change at keys
     std::vector<bool> logarithmic_;
 };

@@ -16,6 +16,7 @@
 #include "render/passes/picture_pass.h"
 #include "render/passes/reproject_pass.h"
 #include "render/passes/sample_sum.h"
+#include "render/drawing/ghost_pass.h"
 #include "render/drawing/slice_pass.h"
 #include "render/drawing/triangle_pass.h"
 #include "render/passes/solid_pass.h"
@@ -146,6 +147,7 @@ void make_all_passes(const Gl& gl) {
     const render::PicturePass pictures(gl);
     const render::SlicePass slices(gl, even), uneven_slices(gl, uneven);
     const render::TrianglePass triangles(gl, even);
+    const render::GhostPass ghosts(gl, even), uneven_ghosts(gl, uneven);
     const render::SolidPass solids(gl);
     const render::TextPass text(
         gl, render::GlyphAtlas{.size = {1, 1}, .coverage = {0}, .halo = {}, .glyphs = {}});

@@ -2,6 +2,8 @@
 #include "app/panel/parts/place_menu.h"
 
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/time_track.h"
+#include "app/scene/caption.h"
 #include "app/scene/mark.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/tools/clip_tool.h"
@@ -46,6 +48,11 @@ bool place_menu(const PanelModel& model, const std::optional<interaction::Pointe
     }
     if (ImGui::MenuItem("isovalue here", nullptr, false, place.has_value() && point.array.empty()))
         commands.isovalue = point.value;
+    if (place && point.instant != model.asked.shown_instant()) {
+        const std::string words = "go to " + steps_text(point.instant);
+        if (ImGui::MenuItem(words.c_str()))
+            show(point.instant, commands);
+    }
     ImGui::Separator();
     const bool all = ImGui::MenuItem("show all", "C");
     ImGui::EndPopup();

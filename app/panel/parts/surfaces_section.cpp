@@ -3,6 +3,7 @@
 
 #include "app/frame/step_survey.h"
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/ghost_rows.h"
 #include "app/panel/parts/histogram.h"
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/rows.h"
@@ -204,6 +205,7 @@ void surfaces_section(const PanelModel& model, Commands& commands) {
     line_on_isovalues(model);
     if (surfaces != model.asked.isosurfaces)
         commands.isosurfaces = surfaces;
+    ghost_rows(model, commands);
     if (adds)
         interaction::merge(commands, with_another(model));
 }

@@ -71,6 +71,24 @@ TEST(Callouts, OfAPlaceBetweenStepsSayBetweenWhich) {
     EXPECT_EQ(pointed_lines({between, 0}, 1, info).back(), "between steps 2 and 3");
 }
 
+TEST(Callouts, OfAGhostSayItsStep) {
+    index::SeriesInfo info;
+    info.times = {0, 2, 4};
+    info.grid.vertices = {9, 9, 9};
+    auto third = std::make_shared<index::InstantSurfaces>();
+    third->query.instant = index::Instant(2);
+    Picture picture;
+    picture.isosurfaces.resize(1);
+    picture.ghosts = {{third, {glm::vec3(1)}, 0.25f}};
+    const auto last_line = [&](std::uint32_t step, bool on_slice) {
+        const interaction::Pointed pointed{{{1, 2, 3}, index::Instant(step), 9.25}, 0, on_slice};
+        return callouts_of(picture, pointed, info).back().lines.back();
+    };
+    EXPECT_EQ(last_line(2, false), "ghost: step 3");
+    EXPECT_NE(last_line(1, false), "ghost: step 2") << "the surface itself";
+    EXPECT_NE(last_line(2, true), "ghost: step 3") << "a slice";
+}
+
 TEST(MarkText, HasTheDigitsThatGridAndValuesCarryAndLosesTheLeastImportantPartFirst) {
     index::SeriesInfo info;
     info.times = {0, 2.908};

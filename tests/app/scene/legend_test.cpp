@@ -84,6 +84,21 @@ TEST_P(LegendTest, IsNotNeededForOneSurfaceAndListsSeveral) {
     EXPECT_TRUE(legend_quads({hidden, "K", {}}, text_, {1000, 1000}).empty());
 }
 
+TEST_P(LegendTest, ListsGhostsByTimeAlsoOfOneSurface) {
+    const std::vector<interaction::Isosurface> one(1);
+    Legend legend{.surfaces = one, .value_unit = "K", .scales = {}};
+    legend.ghosts = {{{0, 0, 1}, "step 3, earlier"}, {{1, 0.5f, 0}, "step 9, later"}};
+    const auto quads = legend_quads(legend, text_, {640, 480});
+    const auto patch = [&](const glm::vec3& color) {
+        return std::ranges::find_if(
+            quads, [&](const ScreenQuad& quad) { return glm::vec3(quad.color) == color; });
+    };
+    const auto earlier = patch(legend.ghosts[0].color), later = patch(legend.ghosts[1].color);
+    ASSERT_TRUE(earlier != quads.end() && later != quads.end());
+    EXPECT_LT(earlier->high.y, later->low.y);
+    EXPECT_EQ(earlier->low.x, later->low.x);
+}
+
 TEST_P(LegendTest, SaysWhichArrayTheIsovaluesAreOfWhereColorsAreAnothers) {
     const std::vector<interaction::Isosurface> two{{1, {1, 0, 0}, 1}, {2, {0, 1, 0}, 1}};
     Legend legend = of_temperature();

@@ -297,6 +297,23 @@ TEST(KeyFrames, TimeGoesByTheDatasTimesAndFallsBetweenStepsOnlyWhereTheyAreBlend
     EXPECT_EQ(shown[22].instant, Instant(2)); // in front of a gap
 }
 
+TEST(KeyFrames, GhostsFadeInAndOutBetweenTheirKeys) {
+    std::vector<KeyFrame> keys{key_at(0), key_at(2), key_at(4), key_at(6)};
+    keys[0].ghosts = Ghosts{};
+    keys[1].ghosts = Ghosts{2, 1, 3, 0.5f};
+    keys[2].ghosts = Ghosts{2, 1, 3, 0.9f};
+    keys[3].ghosts = Ghosts{0, 0, 3, 0.9f};
+    const auto shown = shown_by(frames_of(keys, {.times = kEvenSteps, .rate = 1}), {});
+    ASSERT_EQ(shown.size(), 7u);
+    const std::vector<float> opacities{0, 0.25f, 0.5f, 0.7f, 0.9f, 0.45f, 0};
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const Ghosts& ghosts = shown[i].ghosts;
+        EXPECT_NEAR(ghosts.shown() ? ghosts.opacity : 0.0f, opacities[i], 1e-6) << i;
+        EXPECT_EQ(ghosts.earlier, i == 0 || i == 6 ? 0u : 2u) << i;
+    }
+    EXPECT_EQ(shown.back().ghosts, *keys[3].ghosts);
+}
+
 TEST(KeyFrames, WhatAKeyDoesNotHoldPassesThroughIt) {
     std::vector<KeyFrame> keys{key_at(0), key_at(3), key_at(6)};
     keys[1] = {.time = 3, .bounding_box = false};

@@ -1,0 +1,71 @@
+// The ghosts in numbers.
+#include "app/panel/parts/ghost_rows.h"
+
+#include "app/panel/panel_words.h"
+#include "app/panel/parts/rows.h"
+#include "app/panel/parts/theme.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace isochron::app {
+namespace {
+
+/// A field for a count, one of two that share a row.
+void count_field(const char* id, std::uint32_t& count, std::uint32_t low, std::uint32_t high,
+                 const char* format) {
+    int number = static_cast<int>(count);
+    if (whole_number_field(id, &number, static_cast<int>(low), static_cast<int>(high), format))
+        count = static_cast<std::uint32_t>(number);
+}
+
+/// Begins a row of two fields. @return width of each
+float row_of_two(const char* label) {
+    row(label);
+    return (ImGui::CalcItemWidth() - ImGui::GetStyle().ItemSpacing.x) / 2;
+}
+
+} // namespace
+
+void ghost_rows(const PanelModel& model, interaction::Commands& commands) {
+    const auto steps = static_cast<std::uint32_t>(model.info.steps());
+    if (steps < 2)
+        return;
+    interaction::Ghosts ghosts = model.asked.ghosts;
+    ImGui::PushID("ghosts");
+    const float width = row_of_two("ghosts");
+    ImGui::SetNextItemWidth(width);
+    count_field("##earlier", ghosts.earlier, 0, interaction::kMostGhosts, "%d earlier");
+    tip("surfaces of so many earlier steps, translucent and bluer (Ctrl + Shift + G: on, off)");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(width);
+    count_field("##later", ghosts.later, 0, interaction::kMostGhosts, "%d later");
+    tip("surfaces of so many later steps, translucent and warmer");
+    if (ghosts.earlier + ghosts.later > 0) {
+        row_of_two("");
+        ImGui::SetNextItemWidth(width);
+        count_field("##every", ghosts.every, 1,
+                    std::min(interaction::kWidestGhosts, std::max(ghosts.every, steps - 1)),
+                    ghosts.every == 1 ? "each step" : "every %d");
+        tip("how many steps it is from one ghost to the next");
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(width);
+        float percent = 100.0f * ghosts.opacity;
+        if (number_field("##opacity", percent, {.low = 0, .high = 100}, "%.0f %%"))
+            ghosts.opacity = percent / 100.0f;
+        tip("opacity of the ghosts");
+        // In the room all walls say the same, whatever has been made.
+        const std::string& words =
+            model.place == PanelPlace::in_room ? model.ghosts.wished : model.ghosts.shown;
+        fitted_text(words.empty() ? "no ghosts: the series has no such steps" : words,
+                    ImGui::GetContentRegionAvail().x, color_of(Ink::dim));
+    }
+    ImGui::PopID();
+    if (ghosts != model.asked.ghosts)
+        commands.ghosts = ghosts;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,74 @@
+// Draws meshes of other instants beside the cells: translucent, each of one color, lit as surfaces are.
+//
+//     pass.hold(ghosts);                                  // all that are drawn from now on
+//     pass.draw(view, placement, opacity, appearance);
+#pragma once
+
+#include "index/surface/cell_mesh.h"
+#include "index/volume/grid.h"
+#include "render/cells/axis_table.h"
+#include "render/cells/cell_appearance.h"
+#include "render/cells/placement.h"
+#include "render/cells/surroundings.h"
+#include "render/drawing/triangle_pass.h"
+#include "render/gl/gl_objects.h"
+#include "render/gl/shader.h"
+#include "render/gl/view.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace isochron::render {
+
+struct GhostMesh {
+    index::CellMeshPtr mesh;
+    glm::vec3 color{1.0f}; ///< sRGB, 0 to 1
+    bool operator==(const GhostMesh&) const = default;
+};
+
+class GhostPass {
+  public:
+    /// @param grid of all meshes @throws Error when a shader does not compile
+    GhostPass(const Gl& gl, const index::Grid& grid);
+
+    /// Sends meshes to the GPU unless they are there. @param ghosts all that are drawn from now on
+    void hold(std::span<const GhostMesh> ghosts);
+    /// Draws the triangles of all ghosts into the view's viewport of the bound framebuffer, the farthest
+    /// first along the view, whose direction is rounded to some two degrees: so an order serves for
+    /// both eyes and while a head sways, and depends on nothing that was drawn before. Tests depth and
+    /// writes none. Leaves depth test, depth writes and GL_FRAMEBUFFER_SRGB on, blending and culling
+    /// off.
+    /// @param opacity of each layer that is seen face-on, 0 to 1
+    void draw(const View& view, const Placement& placement, float opacity,
+              const CellAppearance& appearance, TriangleShare share = TriangleShare::all);
+
+  private:
+    /// The corners of all triangles in an order.
+    struct Sorted {
+        glm::vec3 ahead;
+        Buffer corners;
+        std::size_t beyond = 0, count = 0; ///< corners beyond the volume's middle; all
+    };
+    void send();
+    const Sorted& sorted_along(const glm::vec3& ahead, const Placement& placement);
+
+    const Gl* gl_;
+    std::array<std::vector<float>, 3> places_; ///< of the grid's vertices, in even coordinates
+    LazyProgram near_, small_;                 ///< see `MeshLook`
+    VertexArray vertex_array_;
+    Buffer frame_, vertices_, numbers_; ///< `numbers_`: which color each vertex has
+    AxisTable axes_;
+    Surroundings nothing_around_;
+    std::optional<Texture> colors_;
+    std::vector<GhostMesh> held_;
+    std::deque<Sorted> sorted_; ///< the last orders
+};
+
+} // namespace isochron::render

@@ -25,14 +25,21 @@ class MeasuredStep {
   public:
     /// @param mesh of all active cells @param box measures its cells alone, as a grid of their own;
     ///        none: all @param clip measures what this plane leaves; none: all
+    /// @param kept measures these pieces alone
     /// @param complete see `pieces_of` @param stop, file, mesh outlive this
     MeasuredStep(const IndexFile& file, const Query& query, const CellMesh& mesh,
                  const std::optional<VertexBox>& box, const std::optional<CutPlane>& clip,
-                 bool complete, const std::stop_token& stop);
+                 const PieceFilter& kept, bool complete, const std::stop_token& stop);
+
+    /// Whether all pieces of the surface are measured, so that sides of vertices are known.
+    bool has_all_pieces() const { return all_pieces_; }
+    /// The mesh in the box, uncut.
+    const CellMesh& mesh() const { return part_ ? *part_ : whole_; }
+    bool is_cut() const { return clip_.has_value(); }
 
     const Grid& grid() const { return grid_; }
     /// Cells of which a part is on the surface.
-    std::uint64_t cells() const { return clip_ ? cut_.cells : mesh().cases.size(); }
+    std::uint64_t cells() const { return clip_ ? cut_.triangles.size() : mesh().cases.size(); }
     std::uint64_t vertices() const { return clip_ ? cut_.vertices : mesh().vertices.size(); }
     /// Three points for each triangle.
     std::span<const std::uint32_t> corners() const {
@@ -48,6 +55,8 @@ class MeasuredStep {
     const std::vector<glm::dvec3>& normals();
     const std::vector<double>& areas();
     const MeshPieces& pieces();
+    /// Cells that have a triangle of each piece.
+    std::vector<std::uint32_t> cells_of_pieces();
     /// Vertices that are cut away are on no side.
     const VertexSides& sides();
     /// Volumes of the cells that no surface cuts, and the parts of those that it does.
@@ -59,8 +68,6 @@ class MeasuredStep {
     std::uint64_t bodies();
 
   private:
-    /// In the box, uncut.
-    const CellMesh& mesh() const { return box_ ? cropped_ : whole_; }
     std::vector<glm::dvec3> points_of_mesh() const;
     void cut_surface();
     bool corner_is_above() const;
@@ -68,12 +75,12 @@ class MeasuredStep {
     const IndexFile& file_;
     const Query& query_;
     const CellMesh& whole_;
-    CellMesh cropped_;
+    std::optional<CellMesh> part_; ///< in the box, of kept pieces
     std::optional<VertexBox> box_;
     Grid grid_;
     std::optional<PlaneCut> clip_;
     CutSurface cut_; ///< what the plane leaves of the mesh
-    bool complete_;
+    bool complete_, all_pieces_;
     const std::stop_token& stop_;
     std::optional<std::vector<glm::dvec3>> points_, normals_;
     std::optional<std::vector<double>> areas_;

@@ -276,9 +276,10 @@ void add_measure(Command& program) {
         .values(6)
         .type_name("X Y Z NX NY NZ");
     command
-        .option("--dust", arguments->dust,
-                "Measure without the connected pieces that have fewer active cells. The volume is "
-                "then what the other pieces enclose, if all of them are closed")
+        .option(
+            "--dust", arguments->dust,
+            "Measure without the connected pieces that have fewer active cells. What these enclose "
+            "is taken from the volume")
         .type_name("CELLS");
     command.flag(
         "--pieces", arguments->pieces,

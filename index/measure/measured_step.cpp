@@ -163,10 +163,9 @@ MeasuredStep::MeasuredStep(const IndexFile& file, const Query& query, const Cell
       grid_(box ? grid_of(file.info().grid, *box) : file.info().grid), complete_(complete),
       all_pieces_(kept.keeps_all()), stop_(stop) {
     if (box)
-        part_ = cells_within(mesh, *box);
+        cropped_ = cells_within(mesh, *box);
     if (!all_pieces_) {
-        if (!part_)
-            part_ = mesh;
+        part_ = mesh_of_all();
         keep(*part_, kept_pieces(*part_, grid_, complete_, kept, 0));
     }
     if (clip) {
@@ -277,17 +276,17 @@ const MeasuredStep::Volumes& MeasuredStep::volumes() {
     sum.above = whole_cells(cells, [&](auto y, auto z) { return of.above(y, z); });
     sum.below = whole_cells(cells, [&](auto y, auto z) { return of.below(y, z); });
     const std::array<MeshCase, 256>& cases = mesh_cases();
-    const std::span<const std::uint32_t> corners = mesh().triangles;
+    const std::span<const std::uint32_t> corners = mesh_of_all().triangles;
     std::size_t first = 0;
-    for (const std::uint8_t of_cell : mesh().cases) {
+    for (const std::uint8_t of_cell : mesh_of_all().cases) {
         const std::size_t count = std::size_t{3} * cases[of_cell].triangles;
-        const auto at = cell_of_mesh(mesh().vertices[corners[first]], of_cell);
+        const auto at = cell_of_mesh(mesh_of_all().vertices[corners[first]], of_cell);
         const double whole = cells.whole(at), left = cells.left(at);
         const auto triangles = corners.subspan(first, count);
-        const double share = left == whole ? share_above(mesh().vertices, triangles, of_cell)
-                             : left == 0
-                                 ? 0
-                                 : share_above(mesh().vertices, triangles, of_cell, cells.cut(at));
+        const double share =
+            left == whole ? share_above(mesh_of_all().vertices, triangles, of_cell)
+            : left == 0   ? 0
+                          : share_above(mesh_of_all().vertices, triangles, of_cell, cells.cut(at));
         sum.above += share * whole;
         sum.below += left - share * whole;
         first += count;

@@ -31,10 +31,11 @@ class MeasuredStep {
                  const std::optional<VertexBox>& box, const std::optional<CutPlane>& clip,
                  const PieceFilter& kept, bool complete, const std::stop_token& stop);
 
-    /// Whether all pieces of the surface are measured, so that sides of vertices are known.
     bool has_all_pieces() const { return all_pieces_; }
-    /// The mesh in the box, uncut.
-    const CellMesh& mesh() const { return part_ ? *part_ : whole_; }
+    /// This step with all pieces of the surface, uncut.
+    MeasuredStep with_all_pieces() const {
+        return {file_, query_, whole_, box_, {}, {}, complete_, stop_};
+    }
     bool is_cut() const { return clip_.has_value(); }
 
     const Grid& grid() const { return grid_; }
@@ -64,10 +65,14 @@ class MeasuredStep {
         double above = 0, below = 0;
     };
     const Volumes& volumes();
-    /// Connected sets of vertices above, by six neighbors.
+    /// Connected sets of vertices above, by six neighbors; like volumes and sides, with all pieces of
+    /// the surface.
     std::uint64_t bodies();
 
   private:
+    /// In the box, uncut: of all pieces, and of kept ones.
+    const CellMesh& mesh_of_all() const { return cropped_ ? *cropped_ : whole_; }
+    const CellMesh& mesh() const { return part_ ? *part_ : mesh_of_all(); }
     std::vector<glm::dvec3> points_of_mesh() const;
     void cut_surface();
     bool corner_is_above() const;
@@ -75,7 +80,7 @@ class MeasuredStep {
     const IndexFile& file_;
     const Query& query_;
     const CellMesh& whole_;
-    std::optional<CellMesh> part_; ///< in the box, of kept pieces
+    std::optional<CellMesh> cropped_, part_; ///< in the box, and of kept pieces
     std::optional<VertexBox> box_;
     Grid grid_;
     std::optional<PlaneCut> clip_;

@@ -129,15 +129,28 @@ std::vector<MeasuredPiece> measured_pieces(MeasuredStep& step) {
     return all;
 }
 
-double above(MeasuredStep& step) {
+/// What the pieces that are left out enclose; NaN unless all of them are closed.
+double left_out(MeasuredStep& step) {
     if (step.has_all_pieces())
-        return step.volumes().above;
-    if (step.is_cut() || border_edges(step) > 0)
+        return 0;
+    struct Closed {
+        double volume = 0;
+        std::size_t others = 0;
+    };
+    const auto closed = [](MeasuredStep& of) {
+        Closed sum;
+        for (const MeasuredPiece& piece : measured_pieces(of))
+            if (piece.closed)
+                sum.volume += piece.volume;
+            else
+                ++sum.others;
+        return sum;
+    };
+    if (step.is_cut())
         return kUndefined;
-    double sum = 0;
-    for (const MeasuredPiece& piece : measured_pieces(step))
-        sum += piece.volume;
-    return sum;
+    MeasuredStep whole = step.with_all_pieces();
+    const Closed all = closed(whole), kept = closed(step);
+    return all.others == kept.others ? all.volume - kept.volume : kUndefined;
 }
 
 constexpr std::array<Measure, 11> kMeasures{{
@@ -146,10 +159,10 @@ constexpr std::array<Measure, 11> kMeasures{{
     {"area", MeasureUnit::area, "sum of the areas of the surface's triangles", area},
     {"volume", MeasureUnit::volume,
      "volume where the value is at least the isovalue, over the cells without a missing vertex",
-     above},
+     [](MeasuredStep& step) { return step.volumes().above - left_out(step); }},
     {"volume-below", MeasureUnit::volume,
      "volume where the value is less than the isovalue, over the same cells",
-     [](MeasuredStep& step) { return step.has_all_pieces() ? step.volumes().below : kUndefined; }},
+     [](MeasuredStep& step) { return step.volumes().below + left_out(step); }},
     {"pieces", MeasureUnit::none, "connected pieces of the surface: triangles joined by edges",
      [](MeasuredStep& step) { return static_cast<double>(step.pieces().count); }},
     {"bodies", MeasureUnit::none,

@@ -74,8 +74,8 @@ struct MeasureWishes {
     std::optional<CutPlane> clip = std::nullopt;
     bool pieces = false;
     /// Measures only the pieces that this keeps (with `surface` 0) of the surface in the box, before
-    /// it is cut. Its volume is what they enclose, NaN unless all are closed and uncut; `volume-below`
-    /// and `bodies` are NaN.
+    /// it is cut. From the volumes is taken what the others enclose: they are NaN unless these are
+    /// closed and nothing is cut; `bodies` is NaN.
     PieceFilter kept = {};
     /// Numbers of the measures that are wanted; the others are NaN. Empty: all.
     std::vector<std::size_t> only = {};

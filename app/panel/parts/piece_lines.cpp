@@ -95,8 +95,8 @@ PieceOrder order_of_table() {
 }
 
 void table_of_pieces(const PanelModel& model, Commands& commands) {
-    constexpr ImGuiTableFlags kTable = ImGuiTableFlags_Sortable | ImGuiTableFlags_ScrollY |
-                                       ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg;
+    constexpr ImGuiTableFlags kTable =
+        ImGuiTableFlags_Sortable | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit;
     constexpr float kWidth = 460.0f, kHeight = 300.0f, kColumn = 84.0f;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const ImVec2 size(std::min(kWidth, 0.9f * screen.x), std::min(kHeight, 0.6f * screen.y));
@@ -174,6 +174,8 @@ void lines_at_mark(const PanelModel& model, Commands& commands) {
     if (ImGui::Button("show all"))
         commands.pieces = ShownPieces{};
     tip("show all pieces of all surfaces again");
+    if (!piece)
+        ImGui::SameLine();
     fitted_text(words_for_pieces(model), ImGui::GetContentRegionAvail().x,
                 color_of(model.pieces.told.too_many_cells ? Ink::warning : Ink::dim));
 }
@@ -235,7 +237,7 @@ std::string words_for_pieces(const PanelModel& model) {
         return "pieces are being told apart ...";
     if (told.too_many_cells)
         return "too many cells to tell pieces apart: all are shown";
-    return fmt::format("{} of {} pieces shown", grouped(told.kept), grouped(told.all));
+    return fmt::format("{} of {} shown", grouped(told.kept), grouped(told.all));
 }
 
 void piece_lines(const PanelModel& model, PanelPages& pages, Commands& commands) {
@@ -244,7 +246,7 @@ void piece_lines(const PanelModel& model, PanelPages& pages, Commands& commands)
     double dust = model.asked.pieces.dust;
     if (number_field("##dust", dust,
                      {.low = 1, .high = 100'000, .logarithmic = true, .bounded = false},
-                     dust == 0 ? "of all sizes" : "of at least %.0f cells"))
+                     dust == 0 ? "of all sizes" : "from %.0f cells"))
         merge(commands, with_dust(model.asked, dust));
     tip("hide connected pieces of the surfaces that have fewer active cells: drag, or click and "
         "type");

@@ -26,7 +26,7 @@ interaction::ShownPieces without_surface(interaction::ShownPieces pieces, std::u
 /// a mark on the array of the surfaces.
 std::optional<interaction::PlacedPiece> piece_at_mark(const ExplorerState& state);
 
-/// `12 of 830 pieces shown`; empty where the settings hide nothing.
+/// `12 of 830 shown`; empty where the settings hide nothing.
 std::string words_for_pieces(const PanelModel& model);
 
 void piece_lines(const PanelModel& model, PanelPages& pages, interaction::Commands& commands);

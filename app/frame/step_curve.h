@@ -3,6 +3,7 @@
 
 #include "index/file/index_file.h"
 #include "index/surface/mesh_crop.h"
+#include "index/volume/query.h"
 #include "interaction/setting_values.h"
 
 #include <glm/vec3.hpp>
@@ -22,6 +23,7 @@ struct CurveSubject {
     double isovalue = 0;
     std::optional<interaction::ClipPlane> clip = {}; ///< cuts the surface
     std::optional<index::VertexBox> box = {};        ///< only the cells in it are measured
+    index::PieceFilter kept = {};                    ///< see index::MeasureWishes
     /// Number of the array on the surface whose mean and extremes are measured (index::ColorSource).
     std::optional<std::size_t> on_surface = {};
     /// The only number is the value here, in physical space; all but `array` is not used then.

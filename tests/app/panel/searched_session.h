@@ -29,6 +29,7 @@ struct Searched {
         asked.slices.planes.emplace_back();
         asked.models.push_back({.path = "models/hull.stl"});
         asked.ghosts.earlier = 1;
+        asked.pieces.dust = 20;
         asked.look.light = {30.0, 40.0};
         asked.keys.resize(2);
         asked.keys.back().time = 2;

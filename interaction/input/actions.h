@@ -106,6 +106,9 @@ enum class Action : std::uint8_t {
     slice_back,
     slices_alone,
     curves,
+    next_told,
+    previous_told,
+    leave_story,
     count
 };
 /// Each tool can be chosen, too: those actions follow the others.

@@ -152,6 +152,7 @@ MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
     if (note.footprint == render::name_of(render::Footprint::quad))
         state.quality = interaction::QualityMode::fast;
     session.set_state(state);
+    session.set_title({note.title, static_cast<float>(note.opacity)});
     settle(session, note);
     const PictureNames names = picture_names(config.installation);
     const bool each_eye =

@@ -33,7 +33,7 @@ std::uint32_t StoryControls::asked_for(const Reading& now, const Settings& setti
                                 now.pressed(GamepadButton::left) || pushed(-1)));
     pushed_ = stick;
     if (now.pressed(Action::leave_story) ||
-        (told && now.pressed(Action::quit) && settings.tools == Tools{}))
+        (told && now.pressed(Action::quit) && settings.tools == Tools{} && !settings.leaving))
         return 0;
     if (onwards == back)
         return settings.story;

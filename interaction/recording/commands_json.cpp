@@ -167,11 +167,14 @@ void from_json(const json& value, const Field& field, T& into) {
     std::vector<std::string_view> known;
     const auto read = [&]<class V>(const Field& inner, V& member) {
         known.emplace_back(inner.key);
-        if constexpr (requires { member.has_value(); }) {
-            if (const json* found = members.find(inner.key))
+        constexpr bool kOptional = requires { member.has_value(); };
+        const json* const found = kOptional || inner.may_lack ? members.find(inner.key)
+                                                              : &members.at(inner.key);
+        if constexpr (kOptional) {
+            if (found)
                 from_json(*found, inner, member.emplace());
-        } else if (!inner.may_lack || members.find(inner.key)) {
-            from_json(members.at(inner.key), inner, member);
+        } else if (found) {
+            from_json(*found, inner, member);
         }
     };
     each_field(read, into);

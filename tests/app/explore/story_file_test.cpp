@@ -137,7 +137,7 @@ TEST(StoryFile, OfASessionIsThatOfItsKeys) {
 TEST(FigureOfView, IsReadAsWhatWasSeen) {
     interaction::Random random(test_seed());
     int tried = 0;
-    for (int round = 0; round < tries(60); ++round) {
+    for (int round = 0; round < tries(600); ++round) {
         const interaction::Commands commands = interaction::random_commands(random);
         for (const KeyFrame& made : commands.keys.value_or(std::vector<KeyFrame>())) {
             KeyFrame key = made;

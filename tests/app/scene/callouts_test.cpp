@@ -251,7 +251,7 @@ TEST(Callouts, AreAsHighAsTheWordsOfThePanel) {
 TEST(Callouts, AStepOfAStoryStandsBesideItsPlaceBeforeAllOthers) {
     Picture picture;
     picture.room_from_physical = {{0, 0, -3}, glm::dquat(1, 0, 0, 0), 2};
-    picture.mark.point.emplace();
+    picture.marks = {{"kept", {}}};
     picture.told = ToldPlace{{0.25, 0.5, 0}, {"1 of 2: front", "It is here."}};
     const auto callouts = callouts_of(picture, {}, {});
     ASSERT_EQ(callouts.size(), 2u);

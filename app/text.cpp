@@ -11,6 +11,7 @@
 #include <limits>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace isochron::app {
 
@@ -121,6 +122,70 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
     }
     // A distance above half of the word's length means a different word, not a typing error.
     return best <= std::max<std::size_t>(2, word.size() / 2) ? nearest : std::string();
+}
+
+namespace {
+
+bool goes_on_character(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
+}
+
+/// Without its last character.
+std::string shortened(std::string text) {
+    while (!text.empty() && goes_on_character(text.back()))
+        text.pop_back();
+    if (!text.empty())
+        text.pop_back();
+    return text;
+}
+
+} // namespace
+
+std::size_t characters_of(std::string_view text) {
+    return text.size() - static_cast<std::size_t>(std::ranges::count_if(text, goes_on_character));
+}
+
+std::vector<std::string> wrapped(std::string_view text,
+                                 const std::function<bool(const std::string&)>& fits,
+                                 std::size_t most) {
+    std::vector<std::string> lines;
+    std::istringstream paragraphs{std::string(text)};
+    for (std::string paragraph; lines.size() <= most && std::getline(paragraphs, paragraph);) {
+        std::string line, word;
+        std::istringstream words(paragraph);
+        while (lines.size() <= most && words >> word) {
+            if (const std::string longer = line.empty() ? word : line + ' ' + word; fits(longer)) {
+                line = longer;
+                continue;
+            }
+            if (!line.empty())
+                lines.push_back(std::exchange(line, {}));
+            for (; lines.size() <= most && !fits(word); word.erase(0, lines.back().size())) {
+                std::string part;
+                for (std::size_t end = 0; end < word.size() && (part.empty() || fits(part));) {
+                    do
+                        ++end;
+                    while (end < word.size() && goes_on_character(word[end]));
+                    part = word.substr(0, end);
+                }
+                if (characters_of(part) > 1)
+                    part = shortened(part);
+                lines.push_back(part);
+            }
+            line = word;
+        }
+        lines.push_back(line);
+    }
+    while (!lines.empty() && lines.back().empty())
+        lines.pop_back();
+    if (lines.size() <= most)
+        return lines;
+    constexpr const char* kDots = "\u2026";
+    lines.resize(most);
+    while (!lines.back().empty() && !fits(lines.back() + kDots))
+        lines.back() = shortened(lines.back());
+    lines.back() += kDots;
+    return lines;
 }
 
 bool has_words(const std::string& name, std::string_view words) {

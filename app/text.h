@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +45,15 @@ std::string whole_path(const std::filesystem::path& path);
 
 /// A unit with a space before it; empty if there is no unit.
 std::string with_space(const std::string& unit);
+
+/// A text in lines that fit, broken between words where it can be; line breaks of the text stay.
+/// What has no room in `most` lines is cut with dots.
+/// @param text UTF-8 @param fits whether a line does; one character always does
+std::vector<std::string> wrapped(std::string_view text,
+                                 const std::function<bool(const std::string&)>& fits,
+                                 std::size_t most);
+/// The number of characters of a text in UTF-8.
+std::size_t characters_of(std::string_view text);
 
 /// Whether a name has all words of a text, upper or lower case.
 bool has_words(const std::string& name, std::string_view words);

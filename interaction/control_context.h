@@ -102,6 +102,7 @@ struct ControlContext {
     const std::vector<std::string>* stereo_modes = nullptr; ///< what V cycles through; may be null
     DataFrame data{};
     SurfaceFinder find_surface{}; ///< on the surfaces that are shown; may be empty
+    bool fades = false; ///< steps of a story come by a fade, as in headsets, and not by a motion
 };
 
 } // namespace isochron::interaction

@@ -6,6 +6,7 @@
 #include "app/explore/series_movie.h"
 #include "app/frame/late_latch.h"
 #include "app/kept/recording_file.h"
+#include "app/loop/film_titles.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/kept_frames.h"
 #include "app/output/movie_file.h"
@@ -181,6 +182,11 @@ void check_source(const MovieOptions& options, bool of_index) {
         throw UsageError("--length: it is the length of a turn; expected it with --turn or --film");
     if (series.turn && series.film == "time")
         throw UsageError("--turn: `--film time` has no turn; expected one of the two");
+    if (series.titles && of_index && series.keys.empty())
+        throw UsageError("--titles: they are the names and texts of keys; expected --keys FILE, or "
+                         "the recording of a film or story that has them");
+    if (series.titles && options.panorama)
+        throw UsageError("--titles: a panorama has no words; expected one of the two");
     if (options.panorama && (options.emulate || options.stereo || options.eyes == "each"))
         throw UsageError("--panorama: it has both eyes, the left one's picture above the right "
                          "one's; --emulate, --stereo and --eyes go without it");
@@ -251,6 +257,10 @@ void go_to_background() {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
 }
 
+bool has_words(const std::vector<Title>& titles) {
+    return std::ranges::any_of(titles, [](const Title& title) { return !title.words.empty(); });
+}
+
 /// Whether each picture shows what its own frame says, whatever was drawn before: frames may be left
 /// out then.
 bool stands_alone(const Config& config, const interaction::Recording& recording,
@@ -276,6 +286,7 @@ std::string question_of(const MovieOptions& options, const interaction::Recordin
                                        options.emulate, options.panorama);
     for (const auto& option : {options.stereo, options.quality, options.footprint})
         question += option.value_or("") + '\n';
+    question += options.series.titles ? "titles\n" : "";
     question += interaction::to_json(recording.header).dump() + '\n';
     const interaction::RecordedFrame* before = nullptr;
     for (const interaction::RecordedFrame& frame : recording.frames) {
@@ -356,8 +367,13 @@ void draw_frames(const MovieOptions& options, Session& session,
     std::optional<std::vector<FramePart>> read; ///< parts of the frame that comes next
     const CancelOnSignal signals;
     ProgressBar bar;
+    std::vector<Title> titles;
+    if (options.series.titles)
+        titles = titles_of(recording);
     const Skips skips = [&](std::size_t number) {
         const std::size_t frame = number / views;
+        if (!titles.empty())
+            session.set_title(titles[frame]);
         if (number % views == 0 && counts[frame] > 0)
             read = kept.read(frame);
         return read ? alone : alone && counts[frame] == 0;
@@ -438,6 +454,10 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
     if (of_index)
         recording =
             steps_seen(session, config, *file, recording.header, options.series, options.rate);
+    if (options.series.titles && !of_index && !has_words(titles_of(recording)))
+        throw interaction::Error(
+            options.recording + ": --titles: expected the recording of a film with titles, or of a "
+                                "story that is told");
     if (panorama)
         without_words(session, recording);
     Reads reads = reads_of(options, file.get());
@@ -537,6 +557,9 @@ void add_movie(Command& program) {
                 "With an index: length of the turn (default: 10)")
         .between(0.1, interaction::kLongestFilm)
         .type_name("SECONDS");
+    command.flag("--titles", options->series.titles,
+                 "With --keys: names and texts of the keys at the bottom, while the film rests "
+                 "there; with the recording of a film or story that has them: the same");
     command.flag("--panorama", options->panorama,
                  "All directions for both eyes: equirectangular, the left eye's picture above the "
                  "right eye's, in a square of 4096 pixels, or as --size says");

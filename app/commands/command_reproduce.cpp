@@ -156,6 +156,7 @@ MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
     session.models().add_folder(fs::path(options.picture).parent_path());
     for (const std::string& model : options.models)
         session.models().allow(fs::absolute(model));
+    session.set_title({note.title, static_cast<float>(note.opacity)});
     settle(session, note);
     for (const std::string& fault : session.models().faults())
         made.differs.push_back(fault);

@@ -12,6 +12,8 @@
 #include "app/explore/live_setup.h"
 #include "app/explore/loading.h"
 #include "app/explore/pattern_exploration.h"
+#include "app/explore/series_movie.h"
+#include "app/explore/story_file.h"
 #include "app/explore/window_size.h"
 #include "app/indexing/open_index.h"
 #include "app/loop/data_window.h"
@@ -24,6 +26,8 @@
 #include "index/system/links/link.h"
 #include "index/system/new_file.h"
 #include "index/system/user_folders.h"
+#include "interaction/navigation/key_frames.h"
+#include "interaction/navigation/story.h"
 #include "interaction/recording/recording.h"
 #include "stereo/context/display_loss.h"
 #include "stereo/context/wake.h"
@@ -310,6 +314,8 @@ void Exploration::set_start() {
     }
     session_->set_state(start_from(session_->state(), options_, steps));
     show_models();
+    if (options_.story)
+        tell_story();
 }
 
 /// Lets those models be opened that this user has shown before: sessions in their own folder name no
@@ -337,6 +343,21 @@ void Exploration::show_models() {
                        state.models.size());
     }
     session_->set_state(state);
+}
+
+/// From its first step.
+void Exploration::tell_story() {
+    const StoryFile story = read_story(*options_.story);
+    const std::size_t steps = file_->info().steps();
+    expect_fit(story.keys, *options_.story, *session_, steps);
+    ExplorerState told = session_->state();
+    told.keys = story.keys;
+    told.story = interaction::story_step(story.keys, 0).next;
+    told.apply(
+        interaction::way_to_key(told.keys[told.story - 1], told,
+                                {config_.installation.viewers.front().position, {1, 0, 0, 0}}),
+        steps);
+    session_->set_state(told);
 }
 
 /// The first window, as links see it.
@@ -481,7 +502,7 @@ std::vector<std::filesystem::path> Exploration::offer_earlier(BackgroundWork& re
         }
     }
     session_->set_sessions(std::move(offers));
-    if (!earlier_)
+    if (!earlier_ && !options_.story)
         session_->panel().offer_earlier();
     return drops;
 }

@@ -56,6 +56,7 @@ class Exploration {
     bool prepare_session();
     void open_session();
     void set_start();
+    void tell_story();
     LinkScreen link_screen() const;
 
     LiveOptions live_options_with(UserMemory& memory, BackgroundWork& writing);

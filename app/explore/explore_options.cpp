@@ -118,6 +118,12 @@ void add_explore_options(Command& command, ExploreOptions& options) {
     command.flag("--resume", options.resume,
                  "Continue the last session on these data, or the session in --session");
     command
+        .option("--story", options.story,
+                "Tell the story in this file: NAME.isochron-story, a file of keys that have texts "
+                "(docs/FORMATS.md), or a session with such keys. A story that names its data is "
+                "opened alone, too, as FILE")
+        .type_name("FILE");
+    command
         .option("--report", options.report,
                 "Write the times of each frame's stages to this JSON file")
         .type_name("FILE");

@@ -25,6 +25,7 @@ struct ExploreOptions {
     std::string screenshots = ".";
     std::vector<std::string> models; ///< files of triangles
     std::optional<std::string> session;
+    std::optional<std::string> story; ///< file of the story that is told
     bool force = false, resume = false, follow = false;
     bool no_panel = false, emulate = false, list_devices = false, test_pattern = false;
 };

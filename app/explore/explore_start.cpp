@@ -183,6 +183,8 @@ void check_outputs(const ExploreOptions& options, const ClusterJob& job,
     namespace fs = std::filesystem;
     std::error_code ignored;
     Reads reads{{*options.data, options.config}, &file};
+    if (options.story)
+        reads.files.emplace_back(*options.story);
     if (*options.data != options.data_name) // it is the index of these
         for (const fs::path& source : expand_patterns(options.sources.files))
             reads.files.push_back(source);

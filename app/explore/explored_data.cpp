@@ -3,6 +3,7 @@
 
 #include "app/config/series_names.h"
 #include "app/explore/loading.h"
+#include "app/explore/story_file.h"
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/kept_index.h"
 #include "app/kept/user_memory.h"
@@ -36,6 +37,7 @@ ExploreOptions begun_anew(ExploreOptions options) {
     options.isovalue.reset();
     options.step.reset();
     options.session.reset();
+    options.story.reset();
     options.report.reset();
     options.resume = false;
     return options;
@@ -80,6 +82,12 @@ ExploreOptions with_index(ExploreOptions options) {
         file = index::address_of(file);
     if (files.empty() || options.test_pattern)
         return options;
+    if (files.size() == 1 && is_story_name(files.front()) && !options.story) {
+        options.story = files.front();
+        files.front() = data_of_story(files.front());
+    }
+    if (options.story)
+        read_story(*options.story); // refused before a window opens
     options.data_name = files.front();
     if (is_index_name(files))
         options.data = files.front();

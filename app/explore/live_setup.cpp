@@ -4,6 +4,7 @@
 #include "app/command_line/cancel.h"
 #include "app/explore/explored_data.h"
 #include "app/explore/kept_session.h"
+#include "app/explore/story_file.h"
 #include "app/indexing/build_sources.h"
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/open_index.h"
@@ -122,9 +123,9 @@ std::string why_not_open(const std::filesystem::path& data) {
         if (data == demo_data() && !std::filesystem::exists(data, unknown))
             make_demo(data);
         BuildArguments arguments;
-        arguments.files = {data.string()};
+        arguments.files = {is_story_name(data.string()) ? data_of_story(data) : data.string()};
         if (is_index_name(arguments.files))
-            open_index_to_show(data);
+            open_index_to_show(arguments.files.front());
         else
             open_one_or_all(expand_patterns(arguments.files), arguments);
         return {};

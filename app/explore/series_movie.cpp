@@ -13,6 +13,7 @@
 #include "index/error.h"
 #include "index/system/input_file.h"
 #include "interaction/error.h"
+#include "interaction/navigation/story.h"
 #include "interaction/recording/key_film.h"
 
 #include <fmt/format.h>
@@ -43,24 +44,6 @@ std::vector<interaction::KeyFrame> keys_of(const std::string& path) {
     return keys_in(index::read_text(path, kLargest), path);
 }
 
-/// @throws interaction::Error naming the first key that these data cannot show
-void expect_fit(const std::vector<interaction::KeyFrame>& keys, const std::string& path,
-                const Session& session, std::size_t steps) {
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        const interaction::Commands shown = interaction::way_to_key(keys[i], session.state(), {});
-        std::vector<std::string> refused = session.state().refusals(shown, steps);
-        if (shown.array)
-            try {
-                session.expect_array(*shown.array);
-            } catch (const index::Error& error) {
-                refused.emplace_back(error.what());
-            }
-        if (!refused.empty())
-            throw interaction::Error(fmt::format("{}: key {} does not fit the data: {}", path,
-                                                 i + 1, fmt::join(refused, "; ")));
-    }
-}
-
 std::vector<interaction::KeyFrame> turn(const Session& session, const index::SeriesInfo& info,
                                         const SeriesMovie& movie) {
     const auto steps = steps_or_all(movie.steps, "--steps", info.steps());
@@ -83,6 +66,23 @@ std::vector<interaction::KeyFrame> keys_in(const std::string& text, const std::s
         throw interaction::Error(
             fmt::format("{}: a session without keys: Ctrl + M in `explore` makes them", name));
     return interaction::keys_from(interaction::keys_text(keys), name); // in order
+}
+
+void expect_fit(const std::vector<interaction::KeyFrame>& keys, const std::string& path,
+                const Session& session, std::size_t steps) {
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const interaction::Commands shown = interaction::way_to_key(keys[i], session.state(), {});
+        std::vector<std::string> refused = session.state().refusals(shown, steps);
+        if (shown.array)
+            try {
+                session.expect_array(*shown.array);
+            } catch (const index::Error& error) {
+                refused.emplace_back(error.what());
+            }
+        if (!refused.empty())
+            throw interaction::Error(fmt::format("{}: key {} does not fit the data: {}", path,
+                                                 i + 1, fmt::join(refused, "; ")));
+    }
 }
 
 void fill_picture(const Session& session, const Config& config, const index::SeriesInfo& info,
@@ -127,7 +127,11 @@ interaction::Recording steps_seen(Session& session, const Config& config,
         if (const double frames = interaction::seconds_of(keys) * rate; frames > kMostFrames)
             throw UsageError(fmt::format("--rate: a film has at most {:.0f} frames, got {:.4g}",
                                          kMostFrames, frames));
-        recording = film_of_keys(session, header, keys, rate);
+        if (movie.titles && !interaction::has_titles(keys))
+            throw interaction::Error(fmt::format(
+                "{}: --titles: expected a key with a \"name\" or a \"text\", there is none",
+                movie.keys));
+        recording = film_of_keys(session, header, keys, rate, movie.titles);
     } else {
         PictureNote view = session.note();
         play_steps(movie, info.steps(), view.state);

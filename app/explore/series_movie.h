@@ -19,6 +19,7 @@ struct SeriesMovie {
     std::string steps;                  ///< FIRST:LAST[:STRIDE]; empty: all
     std::optional<std::string> between; ///< a name of BetweenSteps; none: as configured or advised
     std::string keys{};                 ///< file of keys, or session that has them; empty: none
+    bool titles = false;                ///< names and texts of the keys stand over the film
     bool turn = false;                  ///< one turn about the data's up axis, while the steps pass
     std::string film{};                 ///< `time`, `turn`, `both`; empty: as `turn` says
     std::optional<double> length;       ///< seconds of the turn; empty: kUsualTurn
@@ -28,6 +29,10 @@ struct SeriesMovie {
 /// The keys of a text: a file of keys, or a session. @param name for messages
 /// @throws interaction::Error
 std::vector<interaction::KeyFrame> keys_in(const std::string& text, const std::string& name);
+
+/// @throws interaction::Error naming the file of the keys and the first key that these data cannot show
+void expect_fit(const std::vector<interaction::KeyFrame>& keys, const std::string& path,
+                const Session& session, std::size_t steps);
 
 /// Places the data where `explore` shows them first: they fill the picture where the screen is the
 /// viewer's, as in a window.

@@ -40,6 +40,9 @@ bool holds(const Field& field, const T& value) {
         return true;
     }
 }
+bool holds(const Field& field, const std::string& text) {
+    return text.size() <= std::max(field.most, interaction::kLongestText);
+}
 bool holds(const Field&, const glm::dvec3& place) {
     return std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
 }
@@ -195,10 +198,14 @@ void apply_to(ExplorerState& state, const interaction::Commands& commands, std::
                 field.high = static_cast<double>(state.known_steps(held)) - 1;
             else if (member == &state.steps)
                 field.high = static_cast<double>(held);
+            else if (member == &state.story)
+                field.high = static_cast<double>(state.keys.size());
             if (given && !take(field, *given, kept))
                 refused(field);
             state.picked =
                 std::min(state.picked, static_cast<std::uint32_t>(state.isosurfaces.size() - 1));
+            if (state.story > state.keys.size())
+                state.story = 0;
         },
         commands, state);
     const Field fraction{"fraction", 0, interaction::kMostFraction};
@@ -246,6 +253,8 @@ bool ExplorerState::resume(const interaction::Commands& kept, std::size_t held) 
         look = {.occlusion = 0.0f};
     if (whole && !kept.keys)
         keys.clear();
+    if (whole && !kept.story)
+        story = 0;
     return apply(kept, held);
 }
 

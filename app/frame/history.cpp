@@ -166,6 +166,23 @@ ExplorerState History::as_seen(ExplorerState before, const interaction::InputSta
     return before;
 }
 
+/// What a step of a story sets is nobody's change: all states have it, so that undo does not undo it.
+void History::adopt(const ExplorerState& before, const ExplorerState& after) {
+    const auto adopt_into = [&](ExplorerState& state) {
+        interaction::each_setting(
+            [](const interaction::Field& field, auto& kept, const auto& old, const auto& now) {
+                if (field.undone && !(old == now))
+                    kept = now;
+            },
+            state, before, after);
+        state.picked =
+            std::min(state.picked, static_cast<std::uint32_t>(state.isosurfaces.size() - 1));
+    };
+    std::ranges::for_each(past_, adopt_into);
+    std::ranges::for_each(future_, adopt_into);
+    fields_ = 0;
+}
+
 void History::add(const ExplorerState& earlier, const ExplorerState& after,
                   const interaction::Commands& commands, const interaction::InputState& input) {
     const ExplorerState before = as_seen(earlier, input);
@@ -179,6 +196,8 @@ void History::add(const ExplorerState& earlier, const ExplorerState& after,
         past_.push_back(before);
         future_.pop_back();
         fields_ = 0;
+    } else if (commands.story) {
+        adopt(before, after);
     } else {
         add_change(before, after, input);
     }

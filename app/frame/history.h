@@ -44,6 +44,7 @@ class History {
 
   private:
     ExplorerState as_seen(ExplorerState before, const interaction::InputState& input) const;
+    void adopt(const ExplorerState& before, const ExplorerState& after);
     void add_change(const ExplorerState& before, const ExplorerState& after,
                     const interaction::InputState& input);
     bool continues(std::uint64_t fields, const interaction::InputState& input) const;

@@ -12,7 +12,9 @@ namespace isochron::app {
 /// @param header of the session
 /// @param keys fit the data; not empty
 /// @param rate frames a second
+/// @param titled the recording has the keys, and says when the title of which one is seen
 interaction::Recording film_of_keys(const Session& session, interaction::RecordingHeader header,
-                                    std::span<const interaction::KeyFrame> keys, double rate);
+                                    std::span<const interaction::KeyFrame> keys, double rate,
+                                    bool titled = false);
 
 } // namespace isochron::app

@@ -34,17 +34,6 @@ using interaction::Seconds;
 
 constexpr std::string_view kProgramsName = "isochron: ";
 
-/// The first name that no file has yet. @return without its suffix
-fs::path free_movie_name(const fs::path& folder) {
-    for (int number = 1;; ++number) {
-        fs::path stem = folder / fmt::format("isochron_movie_{:04}", number);
-        std::error_code ignored;
-        if (!fs::exists(stem.string() + ".mp4", ignored) &&
-            !fs::exists(stem.string() + ".jsonl", ignored))
-            return stem;
-    }
-}
-
 /// `42 %`, as `isochron movie --background` says it.
 std::optional<float> progress_in(std::string_view line) {
     int percent = 0;
@@ -57,13 +46,21 @@ std::optional<float> progress_in(std::string_view line) {
 
 } // namespace
 
-fs::path free_recording_name(const fs::path& folder) {
+fs::path free_name(const fs::path& folder, std::string_view kind,
+                   std::initializer_list<const char*> endings) {
     for (int number = 1;; ++number) {
-        fs::path path = folder / fmt::format("isochron_recording_{:04}.jsonl", number);
-        std::error_code ignored;
-        if (!fs::exists(path, ignored) && !fs::exists(path.string() + ".part", ignored))
-            return path;
+        fs::path stem = folder / fmt::format("isochron_{}_{:04}", kind, number);
+        const auto is_taken = [&](const char* ending) {
+            std::error_code ignored;
+            return fs::exists(stem.string() + ending, ignored);
+        };
+        if (std::ranges::none_of(endings, is_taken))
+            return stem;
     }
+}
+
+fs::path free_recording_name(const fs::path& folder) {
+    return free_name(folder, "recording", {".jsonl", ".jsonl.part"}).string() + ".jsonl";
 }
 
 MovieMaker::MovieMaker(MovieOrders orders) : orders_(std::move(orders)) {}
@@ -95,11 +92,14 @@ void MovieMaker::finish() {
 void MovieMaker::make(const Write& write, BackgroundWork& writing, const MovieManner& manner) {
     if (busy())
         return;
+    const char* const made = manner.figure ? ".pdf" : ".mp4";
+    const char* const source = manner.figure ? ".toml" : ".jsonl";
     const fs::path stem =
-        free_movie_name(whole_path(manner.folder.empty() ? orders_.folder : manner.folder));
+        free_name(whole_path(manner.folder.empty() ? orders_.folder : manner.folder),
+                  manner.figure ? "figure" : "movie", {made, source});
     manner_ = manner;
-    movie_ = stem.string() + ".mp4";
-    recording_ = stem.string() + ".jsonl";
+    movie_ = stem.string() + made;
+    recording_ = stem.string() + source;
     given_up_ = false;
     progress_ = 0;
     const auto written = std::make_shared<std::promise<void>>();
@@ -123,6 +123,24 @@ void MovieMaker::give_up() {
         kill(process_, SIGTERM);
 }
 
+std::vector<std::string> MovieMaker::command() const {
+    std::vector<std::string> words{orders_.program.string(), manner_.figure ? "figure" : "movie",
+                                   recording_.string(), "-o", movie_.string()};
+    if (manner_.figure)
+        return words;
+    words.insert(words.end(), {"--background", "--rate", fmt::format("{}", manner_.rate)});
+    if (manner_.titles)
+        words.emplace_back("--titles");
+    const bool sized = std::ranges::find(orders_.options, "--size") != orders_.options.end();
+    if (!sized && manner_.width > 0 && manner_.height > 0)
+        words.insert(words.end(),
+                     {"--size", std::to_string(manner_.width), std::to_string(manner_.height)});
+    words.insert(words.end(), orders_.options.begin(), orders_.options.end());
+    for (const std::string& model : manner_.models)
+        words.insert(words.end(), {"--model", model});
+    return words;
+}
+
 void MovieMaker::start() {
     said_.clear();
     last_.clear();
@@ -135,21 +153,7 @@ void MovieMaker::start() {
     }
     if (given_up_)
         return end(-1);
-    std::vector<std::string> words{orders_.program.string(),
-                                   "movie",
-                                   recording_.string(),
-                                   "-o",
-                                   movie_.string(),
-                                   "--background",
-                                   "--rate",
-                                   fmt::format("{}", manner_.rate)};
-    const bool sized = std::ranges::find(orders_.options, "--size") != orders_.options.end();
-    if (!sized && manner_.width > 0 && manner_.height > 0)
-        words.insert(words.end(),
-                     {"--size", std::to_string(manner_.width), std::to_string(manner_.height)});
-    words.insert(words.end(), orders_.options.begin(), orders_.options.end());
-    for (const std::string& model : manner_.models)
-        words.insert(words.end(), {"--model", model});
+    std::vector<std::string> words = command();
     std::vector<char*> arguments;
     for (std::string& word : words)
         arguments.push_back(word.data());
@@ -260,6 +264,7 @@ interaction::RecordingHeader header_of_view(interaction::RecordingHeader header,
     header.start.room_panel = interaction::RoomPanel{};
     header.start.quality = interaction::QualityMode::quality;
     header.start.leaving = false;
+    header.start.story.reset();
     header.start.exporting = interaction::ExportWork{};
     header.start.follow = false;
     header.start.playback = interaction::PlaybackState{};

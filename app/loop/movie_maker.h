@@ -1,4 +1,4 @@
-// Movies that the panel asks for: a process of their own makes them, so that no frame waits.
+// Movies and figures that the panel asks for: a process of their own makes them, so that no frame waits.
 #pragma once
 
 #include "app/frame/background_work.h"
@@ -11,13 +11,17 @@
 #include <filesystem>
 #include <functional>
 #include <future>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sys/types.h>
 
 namespace isochron::app {
+
+inline constexpr const char* kStoryEnding = ".isochron-story"; ///< of a story's file
 
 /// What all movies of a session have in common.
 struct MovieOrders {
@@ -29,17 +33,20 @@ struct MovieOrders {
 
 /// How one of them is made.
 struct MovieManner {
-    std::filesystem::path folder = {};   ///< empty: the one of the orders
-    double rate = 30.0;                  ///< pictures a second
-    std::uint32_t width = 0, height = 0; ///< [pixel], 0: as it was seen
+    std::filesystem::path folder = {};    ///< empty: the one of the orders
+    double rate = 30.0;                   ///< pictures a second
+    std::uint32_t width = 0, height = 0;  ///< [pixel], 0: as it was seen
+    bool titles = false;                  ///< titles stand over it
     std::vector<std::string> models = {}; ///< files that the user has let be opened
+    bool figure = false; ///< it is a figure: nothing of the above but the folder counts
 };
 
 /// Makes one movie at a time: `isochron_movie_0001.mp4` and so on. The recording that it is made of
-/// lies beside it. If the movie is canceled or fails, both are deleted.
+/// lies beside it. If the movie is canceled or fails, both are deleted. A figure in the same way:
+/// `isochron_figure_0001.pdf`, of a description `isochron_figure_0001.toml`.
 class MovieMaker {
   public:
-    /// Writes the recording under that name; throws if it cannot.
+    /// Writes the recording, or the description of the figure, under that name; throws if it cannot.
     using Write = std::function<void(const std::filesystem::path&)>;
 
     explicit MovieMaker(MovieOrders orders);
@@ -66,6 +73,7 @@ class MovieMaker {
     std::vector<std::string> messages();
 
   private:
+    std::vector<std::string> command() const;
     void start();
     void read_words();
     void end(int status);
@@ -87,6 +95,10 @@ class MovieMaker {
 
 /// The first name of a recording that no file in a folder has yet: `isochron_recording_0001.jsonl`.
 std::filesystem::path free_recording_name(const std::filesystem::path& folder);
+/// The first name `isochron_KIND_0001` that no file in a folder has with any of these endings.
+/// @return without an ending
+std::filesystem::path free_name(const std::filesystem::path& folder, std::string_view kind,
+                                std::initializer_list<const char*> endings);
 
 /// The header with the size that the user has chosen for movies, if they have.
 interaction::RecordingHeader sized(interaction::RecordingHeader header,

@@ -3,15 +3,21 @@
 
 #include "app/config/first_placement.h"
 #include "app/loop/key_film.h"
+#include "app/loop/seen_figure.h"
 #include "app/text.h"
 #include "index/error.h"
+#include "index/system/links/link.h"
 #include "index/system/new_file.h"
 #include "interaction/error.h"
+#include "interaction/input/device_reading.h"
 #include "interaction/navigation/key_frames.h"
+#include "interaction/recording/key_film.h"
 #include "interaction/step_track.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
+#include <span>
 #include <utility>
 
 namespace isochron::app {
@@ -21,8 +27,10 @@ namespace {
 std::vector<interaction::KeyFrame> keys_of_wish(const std::optional<MovieWish>& wish,
                                                 const Session& session) {
     const ExplorerState& state = session.state();
-    if (wish == MovieWish::keys)
+    if (wish == MovieWish::keys || wish == MovieWish::titled)
         return state.keys;
+    if (wish == MovieWish::views && state.views.size() > 1)
+        return interaction::view_keys(state.views, physical_center(session.file()->info().grid));
     if (wish != MovieWish::turn && wish != MovieWish::both)
         return {};
     constexpr double kTurn = 10; // [s]
@@ -59,6 +67,53 @@ void PanelMovies::begin_or_end_recording(Session& session) {
     session.set_recording(recording_->is_open());
 }
 
+/// A figure of what is seen, in the background.
+void PanelMovies::make_figure(const Session& session, MovieManner manner) {
+    const PictureNote seen = session.note();
+    interaction::KeyFrame key =
+        interaction::key_of(session.state(), interaction::Reading(seen.input).viewer());
+    const glm::ivec2 window = session.outputs().windows().first().framebuffer_size();
+    const stereo::Margins panel = session.panel().covered(window, rows_of(session.state()));
+    const glm::dvec2 size =
+        glm::max(window - glm::ivec2(panel.left, panel.top + panel.bottom), glm::ivec2(1));
+    manner.figure = true;
+    const std::string& index = session.file()->name();
+    movies_.make(
+        [text = figure_text(index::is_link(index) ? index : whole_path(index), key,
+                            size.y / size.x)](const auto& path) {
+            index::NewFile file(path);
+            file.write_at(0, std::as_bytes(std::span(text)));
+            file.commit();
+        },
+        recording_->work(), manner);
+}
+
+/// The keys as a story, beside the data, whose name it says; of data behind an address in the folder of
+/// movies.
+void PanelMovies::save_story(Session& session) {
+    const std::string& data = session.file()->name();
+    const bool linked = index::is_link(data);
+    std::vector<interaction::KeyFrame> keys = session.state().keys;
+    for (interaction::KeyFrame& key : keys)
+        key.models.reset(); // a story opens no other files
+    try {
+        const std::filesystem::path path =
+            free_name(linked ? chosen_folder(session)
+                             : std::filesystem::path(whole_path(data)).parent_path(),
+                      "story", {kStoryEnding})
+                .string() +
+            kStoryEnding;
+        const std::string text = interaction::keys_text(
+            keys, linked ? data : std::filesystem::path(data).filename().string());
+        index::NewFile file(path);
+        file.write_at(0, std::as_bytes(std::span(text)));
+        file.commit();
+        session.show_messages({"story saved: " + whole_path(path)});
+    } catch (const index::Error& error) {
+        session.show_messages({error.what()});
+    }
+}
+
 /// Where pictures, movies and recordings are written.
 std::filesystem::path PanelMovies::chosen_folder(const Session& session) const {
     const std::filesystem::path chosen = session.state().pictures.folder;
@@ -82,13 +137,21 @@ void PanelMovies::place_pictures(Session& session) {
 void PanelMovies::after_frame(Session& session, const LiveFrame&) {
     place_pictures(session);
     const interaction::WrittenPictures& how = session.state().pictures;
-    const MovieManner manner{how.folder, how.rate, how.width, how.height,
-                             session.models().allowed(session.state())};
     const std::optional<MovieWish> wish = session.panel().take_wanted_movie();
+    const MovieManner manner{.folder = how.folder,
+                             .rate = how.rate,
+                             .width = how.width,
+                             .height = how.height,
+                             .titles = wish == MovieWish::titled,
+                             .models = session.models().allowed(session.state())};
     if (wish == MovieWish::record)
         begin_or_end_recording(session);
     else if (wish == MovieWish::give_up)
         movies_.give_up();
+    else if (wish == MovieWish::story)
+        save_story(session);
+    else if (wish == MovieWish::figure)
+        make_figure(session, manner);
     else if (wish == MovieWish::recording && recording_->is_open())
         movies_.make(recording_->copy(), recording_->work(), manner);
     else if (wish == MovieWish::series)
@@ -98,8 +161,8 @@ void PanelMovies::after_frame(Session& session, const LiveFrame&) {
                      recording_->work(), manner);
     else if (const auto keys = keys_of_wish(wish, session); !keys.empty())
         movies_.make(
-            [film = film_of_keys(session, sized(movies_.orders().header, how), keys, how.rate)](
-                const auto& path) { write_recording(path, film); },
+            [film = film_of_keys(session, sized(movies_.orders().header, how), keys, how.rate,
+                                 manner.titles)](const auto& path) { write_recording(path, film); },
             recording_->work(), manner);
     movies_.update();
     session.set_movies({true, recording_->is_open(), movies_.progress(),

@@ -33,6 +33,8 @@ class PanelMovies final : public Companion {
     std::filesystem::path chosen_folder(const Session& session) const;
     void place_pictures(Session& session);
     void begin_or_end_recording(Session& session);
+    void make_figure(const Session& session, MovieManner manner);
+    void save_story(Session& session);
 
     const std::shared_ptr<LiveRecording> recording_;
     MovieMaker movies_;

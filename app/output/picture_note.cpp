@@ -97,6 +97,10 @@ PictureNote note_from_json(const json& value) {
     note.caption = interaction::boolean(members.at("caption"), "caption");
     if (const json* share = members.find("text"))
         note.text = interaction::number(*share, "text", 0, 1);
+    if (const json* title = members.find("title")) {
+        note.title = interaction::text(*title, "title");
+        note.opacity = interaction::number(members.at("title_opacity"), "title_opacity", 0, 1);
+    }
     note.state = interaction::commands_from(members.at("state"), "state");
     const auto frame = interaction::frame_from_json(members.at("frame"), nullptr);
     note.input = frame.input;
@@ -104,11 +108,11 @@ PictureNote note_from_json(const json& value) {
     note.latched = frame.latched;
     if (const json* movie = members.find("movie"))
         note.movie = movie_from(*movie);
-    members.done({"format",        "version",   "program", "drawn_with", "configuration",
-                  "data",          "data_hash", "part",    "size",       "samples",
-                  "passes",        "footprint", "shape",   "ray",        "caption",
-                  "text",          "state",     "frame",   "movie",      "recorded_on",
-                  "reading_number"});
+    members.done({"format",         "version",   "program",      "drawn_with", "configuration",
+                  "data",           "data_hash", "part",         "size",       "samples",
+                  "passes",         "footprint", "shape",        "ray",        "caption",
+                  "text",           "state",     "frame",        "movie",      "recorded_on",
+                  "reading_number", "title",     "title_opacity"});
     return note;
 }
 
@@ -165,6 +169,10 @@ std::string text_of(const PictureNote& note) {
         value["passes"] = note.passes;
     if (note.text > 0)
         value["text"] = note.text;
+    if (!note.title.empty()) {
+        value["title"] = note.title;
+        value["title_opacity"] = note.opacity;
+    }
     if (note.movie)
         value["movie"] = {{"rate", note.movie->rate}, {"recording", note.movie->recording}};
     if (note.reading != 0)

@@ -3,6 +3,7 @@
 
 #include "app/panel/panel_help.h"
 #include "app/panel/parts/messages.h"
+#include "app/panel/parts/story_card.h"
 #include "app/text.h"
 
 #include <imgui.h>
@@ -222,6 +223,7 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
         offers_earlier_ = answer == Answer::none;
     }
     asks_ = asks_ && offers_earlier_;
+    const bool told = story_card(model, picture, commands);
     if (!asks_name_ && !asks_)
         interaction::merge(commands, way_out(model, picture));
     if (has_room_for(kTourCard, picture, lowest))
@@ -231,7 +233,7 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
         shows_room_ = explains_room_ = false;
         room_explained_ = true;
     }
-    if (!explains_room_ && has_room_for(kHintCard, picture, lowest))
+    if (!explains_room_ && !told && has_room_for(kHintCard, picture, lowest))
         introduce(picture, time);
     const std::size_t cards = 32 * tour_.step() + (explains_room_ ? 16 : 0) + (asks_name_ ? 8 : 0) +
                               (offers_earlier_ ? 4 : 0) + (newcomer_ ? 2 : 0) +

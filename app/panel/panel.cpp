@@ -6,6 +6,7 @@
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/messages.h"
 #include "app/panel/parts/sections.h"
+#include "app/panel/parts/story_card.h"
 #include "app/panel/parts/theme.h"
 #include "app/panel/parts/time_bar.h"
 #include "app/panel/parts/time_track.h"
@@ -160,6 +161,8 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
     const ImVec2 padding = layout.folded ? ImVec2(6, 6) : ImGui::GetStyle().WindowPadding;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
     begin_part("###column", layout.column, Ink::paper, kPart & ~ImGuiWindowFlags_NoScrollbar);
+    if (model.place != PanelPlace::over)
+        story_rows(model, commands);
     if (layout.folded)
         section_icons(view.section);
     else if (model.place == PanelPlace::in_room)

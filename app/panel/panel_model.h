@@ -42,6 +42,10 @@ enum class MovieWish : std::uint8_t {
     turn,      ///< a movie of one turn of the data, while this moment stands
     both,      ///< a movie of one turn while all steps pass
     keys,      ///< a film of the key frames
+    titled,    ///< the same with their names and texts as titles
+    views,     ///< a film from one saved viewpoint to the next
+    figure,    ///< a figure of what is seen
+    story,     ///< a file of the story that the keys tell
     give_up,   ///< to cancel the movie that is being made
     record     ///< to begin a recording, or to end the recording that goes on
 };
@@ -100,8 +104,8 @@ struct PanelCurves {
 
 /// A model as it is listed, beside what its setting says.
 struct ListedModel {
-    std::string words; ///< how large it is; empty: nothing is known
-    std::string fault; ///< why it is not shown; empty: it is, or it will be
+    std::string words;    ///< how large it is; empty: nothing is known
+    std::string fault;    ///< why it is not shown; empty: it is, or it will be
     bool refused = false; ///< it is not opened unless the user allows it
 };
 
@@ -180,6 +184,9 @@ struct PanelModel {
     interaction::Pose head{};   ///< head of the first viewer
     bool quad_buffered = false; ///< the windows have a right buffer, which mode quadbuffer needs
     bool room_from_outside = false; ///< the window shows an emulated installation
+    /// Where the place of the story's step lies in the window, 0 to 1 from its upper left corner; empty:
+    /// there is none, or it is out of sight.
+    std::optional<glm::vec2> told_at{};
     /// The place on a surface under the cursor; may be empty.
     std::function<std::optional<interaction::Pointed>()> pointed{};
 };

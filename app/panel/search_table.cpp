@@ -16,7 +16,9 @@
 #include "index/measure/measures.h"
 #include "interaction/controls/action_table.h"
 #include "interaction/navigation/axis_views.h"
+#include "interaction/navigation/key_frames.h"
 #include "interaction/navigation/navigation.h"
+#include "interaction/navigation/story.h"
 #include "interaction/step_track.h"
 #include "interaction/tools/clip_box.h"
 #include "interaction/tools/slice_tool.h"
@@ -321,6 +323,14 @@ constexpr OtherNames kOtherNames[] = {
     {"movie_of_keys",
      "keyframes, key frames, camera path, animation, render animation, flythrough, "
      "film, video of keys"},
+    {"movie_titled", "subtitles, captions in movie, text in movie, annotation, film with names"},
+    {"movie_of_views",
+     "camera path, along path, tour, flythrough, viewpoints movie, animate views"},
+    {"figure_of_view", "publication figure, pdf, vector graphics, paper figure, export pdf, toml"},
+    {"story_file", "presentation, slides, share story, export story, storyboard, guided tour"},
+    {"next_told", "presentation, slide, next slide, slideshow, show story, present, narrate"},
+    {"previous_told", "previous slide, slide back, presentation"},
+    {"leave_story", "end presentation, stop slideshow, close card"},
     {"add_key", "keyframe, key frame, set key, insert keyframe, camera path, waypoint, animation, "
                 "film, storyboard"},
     {"remove_key", "delete keyframe, delete key frame, clear key"},
@@ -1107,6 +1117,9 @@ void add_pictures(Lines& lines) {
     const auto movie = [&](const char* name, const char* words, MovieWish wish) {
         lines.add({.name = name, .words = words, .movie = wish, .in_room = false});
     };
+    movie("figure_of_view", "make a figure of this view (PDF)", MovieWish::figure);
+    if (interaction::story_step(model.asked.keys, 0).of > 0)
+        movie("story_file", "save as story: a file of the keys that have texts", MovieWish::story);
     movie("record", model.recording ? "end the recording of this session" : "record this session",
           MovieWish::record);
     if (model.movies.progress) {
@@ -1120,6 +1133,10 @@ void add_pictures(Lines& lines) {
         movie("movie_of_both", "make a movie of one turn while time plays", MovieWish::both);
     if (model.asked.keys.size() > 1)
         movie("movie_of_keys", "make a movie of the key frames", MovieWish::keys);
+    if (model.asked.keys.size() > 1 && has_titles(model.asked.keys))
+        movie("movie_titled", "make a movie of the key frames with titles", MovieWish::titled);
+    if (model.asked.views.size() > 1)
+        movie("movie_of_views", "make a movie along the saved viewpoints", MovieWish::views);
     if (model.movies.recorded)
         movie("movie_of_recording", "make a movie of the recording so far", MovieWish::recording);
     lines
@@ -1135,6 +1152,23 @@ void add_pictures(Lines& lines) {
         return NumberEffect{fmt::format("{:.4g}", rate),
                             changed([=](WrittenPictures& pictures) { pictures.rate = rate; })};
     };
+}
+
+/// The keys of the film, and the steps of the story.
+void add_film(Lines& lines) {
+    const PanelModel& model = lines.model();
+    const auto& keys = model.asked.keys;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const std::string number = fmt::format("key {}", i + 1), &name = keys[i].name;
+        lines.add({.name = fmt::format("key={}", i + 1),
+                   .words = name.empty() ? number : fmt::format("key {}", name),
+                   .others = "key frame, keyframe, go to key, " + number,
+                   .commands = interaction::way_to_key(keys[i], model.asked, model.head)});
+        if (!keys[i].text.empty())
+            lines.value(fmt::format("story={}", i + 1),
+                        fmt::format("story: tell {}", interaction::name_of_key(keys, i)),
+                        &Commands::story, static_cast<std::uint32_t>(i) + 1, model.asked.story);
+    }
 }
 
 void add_data(Lines& lines) {
@@ -1193,6 +1227,7 @@ std::vector<SearchLine> search_lines(const PanelModel& model) {
     add_time(lines);
     add_curves(lines);
     add_models(lines);
+    add_film(lines);
     add_pictures(lines);
     add_data(lines);
     return lines.take();

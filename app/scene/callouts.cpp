@@ -142,6 +142,9 @@ std::vector<Callout> callouts_of(const Picture& picture,
     const OverlayColors overlay = overlay_colors_on(picture.look.background);
     const auto instant_of = [](const ShownGhost& ghost) { return ghost.surfaces->query.instant; };
     std::vector<Callout> callouts;
+    if (picture.told)
+        callouts.push_back(
+            {in_room(picture.told->place), picture.told->lines, overlay.text, CalloutSign::dot});
     if (const auto& mark = picture.mark.point)
         callouts.push_back({in_room(mark->position), mark_lines(*mark, info),
                             readable(kMarkColor, overlay), CalloutSign::cross});

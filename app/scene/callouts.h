@@ -31,7 +31,7 @@ struct Callout {
     CalloutSign sign = CalloutSign::none;
 };
 
-/// Callouts of the mark, of marks that were kept, of tools, and of the place under the cursor, in the order in which they
+/// Callouts of a story's step, of the mark, of marks that were kept, of tools, and of the place under the cursor, in the order in which they
 /// get room.
 std::vector<Callout> callouts_of(const Picture& picture,
                                  const std::optional<interaction::Pointed>& pointed,

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 namespace isochron::app {
 
 std::string steps_text(index::Instant at) {
@@ -41,6 +43,33 @@ std::vector<render::ScreenQuad> caption_quads(const std::string& words,
         0.0f);
     text.set({.text = words, .at = middle, .color = overlay.text, .halo = overlay.halo()}, height,
              quads);
+    return quads;
+}
+
+std::vector<render::ScreenQuad> title_quads(const std::string& words, float opacity,
+                                            const render::TextPass& text, const glm::ivec2& picture,
+                                            const OverlayColors& overlay, float share) {
+    constexpr float kLarger = 1.5f, kWidth = 0.9f, kRow = 1.2f; // row: heights of a line
+    constexpr std::size_t kMostLines = 2;
+    const float height = std::round(kLarger * text_height(picture, share));
+    const float wide = kWidth * static_cast<float>(picture.x) / height;
+    const std::vector<std::string> lines = wrapped(
+        words,
+        [&](const std::string& line) { return render::text_width(text.atlas(), line) <= wide; },
+        kMostLines);
+    glm::vec4 color = overlay.text, halo = overlay.halo();
+    color.w *= opacity;
+    halo.w *= opacity;
+    std::vector<render::ScreenQuad> quads;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const auto below = static_cast<float>(lines.size() - i);
+        const glm::vec2 middle(0.5f * static_cast<float>(picture.x), kRow * height * below);
+        text.set({.text = lines[i],
+                  .at = glm::vec3(glm::floor(middle), 0.0f),
+                  .color = color,
+                  .halo = halo},
+                 height, quads);
+    }
     return quads;
 }
 

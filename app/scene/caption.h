@@ -23,4 +23,10 @@ std::vector<render::ScreenQuad>
 caption_quads(const std::string& words, const render::TextPass& text, const glm::ivec2& picture,
               const OverlayColors& overlay = {}, float share = 0.0f);
 
+/// A title at the bottom, in the middle: two lines at most, half as high again as other words.
+/// @param opacity 0 to 1 @param share height of the other words
+std::vector<render::ScreenQuad> title_quads(const std::string& words, float opacity,
+                                            const render::TextPass& text, const glm::ivec2& picture,
+                                            const OverlayColors& overlay = {}, float share = 0.0f);
+
 } // namespace isochron::app

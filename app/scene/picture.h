@@ -78,12 +78,27 @@ struct ShownGhost {
     bool operator==(const ShownGhost&) const = default;
 };
 
+/// The place that a step of a story is about, and what stands beside it.
+struct ToldPlace {
+    glm::dvec3 place{0.0}; ///< physical space
+    std::vector<std::string> lines;
+    bool operator==(const ToldPlace&) const = default;
+};
+
+/// Words over a film.
+struct Title {
+    std::string words; ///< wrapped to two lines at most; empty: there is none
+    float opacity = 0; ///< 0 to 1
+    bool operator==(const Title&) const = default;
+};
+
 /// Everything that the eyes' pictures depend on.
 struct Picture {
     Audience audience;
     interaction::Mark mark;
     std::vector<interaction::NamedMark> marks;
     std::optional<interaction::Pointed> pointed;
+    std::optional<ToldPlace> told;
     interaction::ToolDrawing tools;
     std::vector<interaction::ClipPlane> cuts; ///< away what is beyond any of them
     Guides guides;
@@ -105,6 +120,7 @@ struct Picture {
     bool legend = true;
     bool orientation = false; ///< the data's axes and a scale bar in a corner
     std::string caption;      ///< in a corner; empty: none
+    Title title;
     /// Mesh level of the footprint `mesh` (index/extraction/simplified_meshes.h).
     std::size_t mesh_level = 0;
     /// The exact picture that is kept is moved to where its cells are seen now, in the place of

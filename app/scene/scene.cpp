@@ -507,6 +507,9 @@ void Scene::draw_over_cells(const render::View& view, const Picture& picture, co
     if (picture.orientation)
         draw_orientation(view, picture, words.corners.orientation);
     draw(words.corners.caption);
+    if (!picture.title.words.empty() && picture.title.opacity > 0.0f)
+        draw(title_quads(picture.title.words, picture.title.opacity, text_pass_, view.size,
+                         overlay_of(picture), picture.layout.text));
 }
 
 /// The panel is drawn over the cells so that viewers who stand among them can read it with both

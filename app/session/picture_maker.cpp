@@ -4,9 +4,11 @@
 #include "app/scene/caption.h"
 #include "app/scene/mark.h"
 #include "app/scene/overlay_colors.h"
+#include "app/text.h"
 #include "interaction/input/device_reading.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/navigation/navigator.h"
+#include "interaction/navigation/story.h"
 #include "interaction/tools/clip_box.h"
 #include "interaction/tools/tool_table.h"
 
@@ -29,6 +31,22 @@ bool is_marked(const interaction::Pointed& pointed, const interaction::Pose& vie
                               glm::dvec3(viewer.position));
     };
     return glm::distance(way(*mark), way(pointed.point)) < kApart;
+}
+
+/// What stands beside the place of the story's step: its text, except where a card over the picture
+/// has that.
+std::optional<ToldPlace> told_place(const ExplorerState& state, bool beside_card) {
+    constexpr std::size_t kColumns = 44, kMostLines = 12;
+    const interaction::KeyFrame* const key = interaction::told_key(state);
+    if (!key || !key->place)
+        return std::nullopt;
+    ToldPlace told{*key->place, {interaction::story_heading(state.keys, state.story)}};
+    if (!beside_card)
+        for (std::string& line : wrapped(
+                 key->text, [](const std::string& line) { return characters_of(line) <= kColumns; },
+                 kMostLines))
+            told.lines.push_back(std::move(line));
+    return told;
 }
 
 } // namespace
@@ -145,6 +163,9 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
         .mark = state.mark,
         .marks = state.marks,
         .pointed = within.pointed,
+        .told = title_.words.empty()
+                    ? told_place(state, on_screens_of_desk() && !outputs_.headset())
+                    : std::nullopt,
         .tools = drawing_of(state, data_frame(frame.file.info())),
         .cuts = cutting_planes(state, data_frame(frame.file.info())),
         .guides = {state.grid, interaction::teleport_target(seen)},
@@ -167,6 +188,7 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
         .bounding_box = state.bounding_box,
         .orientation = false,
         .caption = {},
+        .title = title_,
         .mesh_level = frame.drawn ? frame.drawn->mesh_level : 0,
         .moved = frame.drawn && frame.drawn->moved,
         .layout = {.windows = outputs_.window_sizes(),
@@ -244,6 +266,7 @@ Picture PictureMaker::kept(const Picture& picture,
     if (!parts.marks) {
         kept.mark = {};
         kept.marks.clear();
+        kept.told.reset();
         kept.tools = {};
     }
     if (parts.background != WrittenBackground::shown)

@@ -14,6 +14,7 @@
 #include "app/session/shown_arrays.h"
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -41,6 +42,8 @@ class PictureMaker {
     /// What is to be drawn over the last picture, which lacks it.
     const Aids& over() const { return over_; }
 
+    /// Sets what stands over the pictures from now on.
+    void set_title(Title title) { title_ = std::move(title); }
     /// The place on a surface under the cursor.
     std::optional<interaction::Pointed> pointed(const interaction::InputState& input,
                                                 const ExplorerState& state) const;
@@ -77,6 +80,7 @@ class PictureMaker {
     const GhostSupply& ghosts_;
     mutable PercentileRange percentiles_; ///< keeps what it has sorted
     Aids over_;
+    Title title_;
     std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture
 };
 

@@ -7,11 +7,13 @@
 #include "index/file/index_watch.h"
 #include "interaction/navigation/key_frames.h"
 #include "interaction/navigation/navigation.h"
+#include "interaction/navigation/story.h"
 #include "interaction/tools/tool_table.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -88,9 +90,16 @@ interaction::ControlContext Session::control_context(const interaction::Ways& wa
             .ways = ways,
             .stereo_modes = &outputs_.stereo_modes(),
             .data = data_frame(arrays_.file()->info()),
-            .find_surface = [this](const interaction::Pose& ray) {
-                return picker_.hit_by(ray, state_, scene_.cells().shown());
-            }};
+            .find_surface =
+                [this](const interaction::Pose& ray) {
+                    return picker_.hit_by(ray, state_, scene_.cells().shown());
+                },
+            .fades = fades_to_steps()};
+}
+
+/// Whoever wants no motion that is not their own: in headsets, and where motion narrows the view.
+bool Session::fades_to_steps() const {
+    return outputs_.headset() || config_.comfort.vignette;
 }
 
 Commands Session::commands_from(const interaction::InputState& input) {
@@ -222,7 +231,29 @@ PanelModel Session::panel_model(const FrameReport& report) {
                                                         : outputs_.audience().viewers.front().head,
             .quad_buffered = outputs_.windows()[0].has_stereo_buffers(),
             .room_from_outside = outputs_.room() != nullptr,
+            .told_at = told_at(),
             .pointed = [this] { return pictures_.pointed(note_.input, state_); }};
+}
+
+/// In the only picture of a window on a desk.
+std::optional<glm::vec2> Session::told_at() const {
+    const interaction::KeyFrame* const key = interaction::told_key(state_);
+    const Audience& audience = outputs_.audience();
+    if (!key || !key->place || audience.viewers.empty() || !pictures_.on_desktop(audience))
+        return std::nullopt;
+    const auto views = outputs_.display().views_in_window(audience.viewers);
+    if (views.size() != 1)
+        return std::nullopt;
+    const render::View& view = views.front();
+    const glm::vec4 at(glm::vec3(transform(state_.room_from_physical, *key->place)), 1.0f);
+    const glm::vec4 clip = view.steady().clip_from_eye * view.eye_from_room * at;
+    const glm::vec2 seen = 0.5f * glm::vec2(clip) / clip.w + 0.5f;
+    if (clip.w <= 0.0f || glm::any(glm::lessThan(seen, glm::vec2(0.0f))) ||
+        glm::any(glm::greaterThan(seen, glm::vec2(1.0f))))
+        return std::nullopt;
+    const glm::vec2 window(outputs_.windows().first().framebuffer_size());
+    const glm::vec2 pixel = glm::vec2(view.corner) + seen * glm::vec2(view.size);
+    return glm::vec2(pixel.x / window.x, 1.0f - pixel.y / window.y);
 }
 
 void Session::warm_up(const std::function<bool(float)>& goes_on) {
@@ -408,6 +439,10 @@ PictureNote Session::note() const {
     note.reading = arrays_.file()->metadata().reading_number;
     note.footprint = name_of(drawn_ ? drawn_->footprint : render::Footprint{});
     note.text = drawn_ ? drawn_->layout.text : 0.0f;
+    if (drawn_ && drawn_->title.opacity > 0) {
+        note.title = drawn_->title.words;
+        note.opacity = static_cast<double>(drawn_->title.opacity);
+    }
     note.as_seen = config_.pictures.only_kept ||
                    (drawn_ && pictures_.kept(*drawn_, state_.pictures) == *drawn_);
     ExplorerState state = state_;
@@ -456,9 +491,10 @@ void Session::set_wake(const std::function<void()>& wake) {
 FrameOutlook Session::outlook() const {
     const FrameReport& last = log_.frames().back();
     const FrameOutlook picture{
-        .busy = state_.playback.playing || last.extracting || more_comes() ||
-                partial_.are_made() || (samples_.are_missing() && !samples_come_later()) ||
-                captures_.wanted() > 0 || last.comfort != interaction::ComfortState{},
+        .busy = state_.playback.playing || controls_.tells_on(state_.story) || last.extracting ||
+                more_comes() || partial_.are_made() ||
+                (samples_.are_missing() && !samples_come_later()) || captures_.wanted() > 0 ||
+                last.comfort != interaction::ComfortState{},
         .changed = contents_.changed() || last.uploaded != render::UploadCount{},
         .final =
             last.final && !last.retries && scene_.cells().is_complete() && !supply_.set_comes()};
@@ -478,7 +514,9 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     show_messages(controls_.take_notes());
     const interaction::InputState rest = panel_.in_room().update(input, state_.room_panel).rest;
     obey(commands, input);
-    report.comfort = comfort_.update(input, state_.room_from_physical);
+    report.comfort =
+        comfort_.update(input, state_.room_from_physical,
+                        waiting == Waiting::never && fades_to_steps() ? state_.story : 0);
     report.asked = arrays_.surfaces(state_);
     report.pace = gate_.update(rest, commands, state_.quality, playing_in(waiting));
     const Frame frame{.state = state_,

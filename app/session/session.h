@@ -169,6 +169,8 @@ class Session {
         note_.data = name;
         note_.recorded_on = recorded_on;
     }
+    /// Sets the title of the frames that follow.
+    void set_title(const Title& title) { pictures_.set_title(title); }
     /// What is under the pointer in the last frame, or marked, in words; empty: nothing.
     std::string pointed() const { return pictures_.words_under_pointer(note_.input, state_); }
     PictureNote note() const; ///< about the last frame
@@ -218,6 +220,8 @@ class Session {
     ExplorerState home_with_models() const;
     interaction::Similarity all_in_view(const Audience& audience) const;
     bool is_settled(const Frame& frame) const;
+    std::optional<glm::vec2> told_at() const;
+    bool fades_to_steps() const;     ///< of a story
     bool samples_come_later() const; ///< behind what is still to be prepared
     /// Whether slices or ghosts are still to be made.
     bool more_comes() const { return slices_.come() || models_.come() || ghosts_.come(); }

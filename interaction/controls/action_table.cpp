@@ -254,6 +254,14 @@ std::vector<KeyLine> all_lines() {
     add(next_key, "next_key", kNoOldBit, {{'J', kCtrl}}, 0, "key frame: go to the next one");
     add(previous_key, "previous_key", kNoOldBit, {{'J', kCtrlShift}}, 0,
         "key frame: go to the previous one");
+    line("Ctrl + Page Down, Ctrl + Page Up", "next, previous step of the story, if keys have texts");
+    add(next_told, "next_told", kNoOldBit, {{Key::page_down, kCtrl}}, 0,
+        "story: tell the next step, or begin it");
+    add(previous_told, "previous_told", kNoOldBit, {{Key::page_up, kCtrl}}, 0,
+        "story: tell the previous step");
+    line("Ctrl + Shift + Page Up", "leave the story (Escape, too)");
+    add(leave_story, "leave_story", kNoOldBit, {{Key::page_up, kCtrlShift}}, kQuiet,
+        "story: leave it");
     line("H", "floor grid on, off");
     add(grid, "grid", 40, {'H'}, 0, "", toggle<&Settings::grid, &Commands::grid>);
     line("1 2 3, Ctrl + 1", "quality: automatic, fast, best, as in the paper");
@@ -371,7 +379,7 @@ std::vector<KeyLine> all_lines() {
         });
     line("Delete", removal_words());
     add(remove_made, "remove_made", 53, {Key::del}, kQuiet, "", remove_made_by_tool);
-    line("Escape", "leave the tool, a list, a page, or loading");
+    line("Escape", "leave the tool, a story, a list, a page, or loading");
     add(quit, "quit", 33, {Key::escape}, kQuiet); // its name of old recordings: it asked
     line("Ctrl + Q", "ask whether to quit (Enter: yes, Escape: no)");
     add(ask_to_quit, "ask_to_quit", 77, {{'Q', kCtrl}}, kQuiet);

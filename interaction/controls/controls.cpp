@@ -6,6 +6,7 @@
 #include "interaction/controls/key_repeat.h"
 #include "interaction/controls/key_words.h"
 #include "interaction/controls/room_panel.h"
+#include "interaction/controls/story_controls.h"
 #include "interaction/controls/time_controls.h"
 #include "interaction/input/actions.h"
 #include "interaction/navigation/navigation.h"
@@ -36,6 +37,7 @@ struct Controls::State {
     KeyRepeat isovalue_up, isovalue_down, eyes_apart, eyes_together;
     Navigator navigator;
     TimeControls time_controls;
+    StoryControls story;
     ToolBox tools;
     Commands found;                 ///< by tools, not yet taken
     std::vector<std::string> notes; ///< notes of tools, not yet taken
@@ -210,6 +212,7 @@ Commands Controls::update(const InputState& devices, const ControlContext& conte
     s.move_eyes(now, context, input.time, commands);
     s.leave(now, context, commands);
     s.press(now, context, commands);
+    s.story.update(now, context, input.time, commands, s.notes);
     const ToolBox::Outcome made = s.with_tools(now, context, volume);
     merge(commands, made.commands);
     merge(s.found, made.found);
@@ -220,6 +223,10 @@ Commands Controls::update(const InputState& devices, const ControlContext& conte
         merge(commands, *context.ways.start);
     s.take_back(now, context, commands);
     return commands;
+}
+
+bool Controls::tells_on(std::uint32_t told) const {
+    return state_->story.goes_on(told);
 }
 
 Commands Controls::take_found() {

@@ -24,6 +24,9 @@ class Controls {
     /// Advances by one frame. The commands include the step that playback has reached.
     Commands update(const InputState& input, const ControlContext& context);
 
+    /// Whether the next frames show the way to a step of the story. @param told `Settings::story`
+    bool tells_on(std::uint32_t told) const;
+
     /// The part of the commands that depends on the surfaces shown, not on devices alone (places
     /// that tools found): `update` keeps it until it is taken.
     Commands take_found();

@@ -1,6 +1,7 @@
 // The controls of time: playing, steps, the range that is played, bookmarks.
 #include "interaction/controls/time_controls.h"
 
+#include "interaction/navigation/story.h"
 #include "interaction/step_track.h"
 
 #include <algorithm>
@@ -72,9 +73,14 @@ const StepGaps* blended(const ControlContext& context) {
     return context.series.gaps ? context.series.gaps : &kNone;
 }
 
+/// The stick for time, -1 to 1; while a story is told it goes through the story.
+double time_stick(const Reading& now, const Settings& settings) {
+    return told_key(settings) ? 0.0 : now.wand_rate(WandValuator::step);
+}
+
 /// How fast time is pushed on, -1 to 1.
-double push_rate(const Reading& now, bool blends) {
-    const double stick = blends ? now.wand_rate(WandValuator::step) : 0.0;
+double push_rate(const Reading& now, const Settings& settings) {
+    const double stick = settings.blends() ? time_stick(now, settings) : 0.0;
     return std::clamp(now.wand_rate(WandValuator::time) + stick, -1.0, 1.0);
 }
 
@@ -88,7 +94,7 @@ Instant TimeControls::moved(const Reading& now, const ControlContext& context, S
         by.every = 1;
     const Instant from = settings.shown_instant();
     Instant to = from;
-    const double stick = settings.blends() ? 0.0 : now.wand_rate(WandValuator::step);
+    const double stick = settings.blends() ? 0.0 : time_stick(now, settings);
     const int forward = forward_.presses(
         now.key(Action::step_forward) || now.pad(GamepadButton::right_bumper) || stick > kPushed,
         time);
@@ -104,12 +110,13 @@ Instant TimeControls::moved(const Reading& now, const ControlContext& context, S
     if (now.pressed(Action::last_step))
         to = Instant(last_of(settings.play_range, steps));
     const Instant before = to;
-    if (now.pressed(Action::next_time) || now.pressed(WandButton::next_time) ||
-        now.pressed(GamepadButton::right))
+    const bool told = told_key(settings) != nullptr; // whose buttons these are then
+    if (now.pressed(Action::next_time) ||
+        (!told && (now.pressed(WandButton::next_time) || now.pressed(GamepadButton::right))))
         if (const auto next = next_bookmark(settings.bookmarks, before, settings.blends()))
             to = *next;
-    if (now.pressed(Action::previous_time) || now.pressed(WandButton::previous_time) ||
-        now.pressed(GamepadButton::left))
+    if (now.pressed(Action::previous_time) ||
+        (!told && (now.pressed(WandButton::previous_time) || now.pressed(GamepadButton::left))))
         if (const auto previous = previous_bookmark(settings.bookmarks, before, settings.blends()))
             to = *previous;
     return to;
@@ -121,7 +128,7 @@ Instant TimeControls::pushed(const Reading& now, const ControlContext& context, 
     constexpr double kSeriesSeconds = 4.0;
     const std::vector<double>& times = *context.series.times;
     const Settings& settings = context.settings;
-    const double rate = push_rate(now, settings.blends());
+    const double rate = push_rate(now, settings);
     PlaybackState state;
     state.playing = rate != 0;
     state.reverse = rate < 0;
@@ -150,7 +157,7 @@ void TimeControls::update(const Reading& now, const ControlContext& context, Sec
         to = moved(now, context, time, steps);
     if (steps > 0 && to == from)
         to = pushed(now, context, from, elapsed);
-    if (to != from || push_rate(now, settings.blends()) != 0)
+    if (to != from || push_rate(now, settings) != 0)
         state.playing = false;
     const Playback::Result reached =
         playback_.advance(times, to, state, elapsed, range, blended(context));

@@ -36,7 +36,7 @@ std::string name_of(const KeyStroke& stroke) {
 
 std::span<const ControlLine> control_lines() {
     using enum DeviceKind;
-    static constexpr std::array<ControlLine, 39> kLines{{
+    static constexpr std::array<ControlLine, 41> kLines{{
         {mouse, "Click", "pick the surface there, or what the chosen tool does"},
         {mouse, "Double click", "bring that place of a surface to the middle of the view"},
         {mouse, "Left drag", "orbit: turn the volume about its center"},
@@ -60,6 +60,7 @@ std::span<const ControlLine> control_lines() {
         {hands, "Wand buttons 6, 7, 8", "room panel, pick the surface, read the data at the tip"},
         {hands, "Wand buttons 9, 10, 11", "next tool for button 1, undo, redo"},
         {hands, "Wand buttons 12, 13, 14", "bookmark this time, next, previous bookmark"},
+        {hands, "Wand buttons 13, 14, stick", "while a story is told: its next, previous step"},
         {hands, "Wand button 15", "the range that plays begins here, ends here, is all steps"},
         {hands, "Wand on the room's panel",
          "button 1 clicks, drags; title moves it, stick scrolls"},
@@ -75,6 +76,7 @@ std::span<const ControlLine> control_lines() {
         {gamepad, "bumpers", "one step back, forward"},
         {gamepad, "A, B", "play or pause, reverse"},
         {gamepad, "pad up, right, left", "bookmark this time, next, previous bookmark"},
+        {gamepad, "pad right, left", "while a story is told: its next, previous step"},
         {gamepad, "pad down", "the range that plays begins here, ends here, is all steps"},
         {gamepad, "X, Y", "reset the volume, hold to grab it with the wand"},
     }};

@@ -107,6 +107,9 @@ enum class Action : std::uint8_t {
     slices_alone,
     curves,
     ghosts,
+    next_told,
+    previous_told,
+    leave_story,
     count
 };
 /// Each tool can be chosen, too: those actions follow the others.

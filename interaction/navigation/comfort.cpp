@@ -9,7 +9,8 @@
 namespace isochron::interaction {
 namespace {
 
-constexpr double kLongestFade = 0.1; ///< [s] a stall must not darken the picture at once
+constexpr Seconds kDark{0.3}, kLeapFade{0.15}; ///< for a leap: how long, and how fast it comes
+constexpr double kLongestFade = 0.1;           ///< [s] a stall must not darken the picture at once
 
 /// `value` moved towards `wanted`, at a rate of 1 per `fade`.
 double approached(double value, double wanted, double seconds, Seconds fade) {
@@ -40,7 +41,8 @@ double Comfort::wanted_vignette(const glm::dvec3& head, const Similarity& volume
                     ramp(angle / seconds, options_.vignette_turn, options_.vignette_turn_full));
 }
 
-ComfortState Comfort::update(const InputState& input, const Similarity& volume) {
+ComfortState Comfort::update(const InputState& input, const Similarity& volume,
+                             std::uint32_t leaps_to) {
     const DeviceState* head = input.find("head");
     const double seconds =
         time_ ? std::clamp((input.time - *time_).count(), 0.0, kLongestFade) : 0.0;
@@ -49,7 +51,12 @@ ComfortState Comfort::update(const InputState& input, const Similarity& volume) 
     const double vignette = time_ ? wanted_vignette(place, volume, seconds) : 0.0;
     const bool lost = head && head->tracking() == Tracking::lost && options_.fade_when_lost;
     state_.vignette = approached(state_.vignette, vignette, seconds, options_.vignette_fade);
-    state_.fade = approached(state_.fade, lost ? 1.0 : 0.0, seconds, options_.lost_fade);
+    if (time_ && leaps_to > 0 && leaps_to != leapt_to_)
+        dark_until_ = input.time + kDark;
+    leapt_to_ = leaps_to;
+    leap_ = approached(leap_, input.time < dark_until_ ? 1.0 : 0.0, seconds, kLeapFade);
+    lost_ = approached(lost_, lost ? 1.0 : 0.0, seconds, options_.lost_fade);
+    state_.fade = std::max(leap_, lost_);
     time_ = input.time;
     before_ = volume;
     return state_;

@@ -6,6 +6,9 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstdint>
+#include <optional>
+
 namespace isochron::interaction {
 
 struct ComfortOptions {
@@ -36,13 +39,19 @@ class Comfort {
     explicit Comfort(const ComfortOptions& options) : options_(options) {}
     /// Advances by one frame. The vignette follows the volume's motion past the head, whatever
     /// moved the volume; the head's own motion does not count.
-    ComfortState update(const InputState& input, const Similarity& room_from_physical);
+    /// @param leaps_to `Settings::story` where its steps come by a fade: a change darkens the picture
+    /// for a moment, in which the view leaps; 0: no story
+    ComfortState update(const InputState& input, const Similarity& room_from_physical,
+                        std::uint32_t leaps_to = 0);
 
   private:
     double wanted_vignette(const glm::dvec3& head, const Similarity& volume, double seconds) const;
 
     ComfortOptions options_;
     ComfortState state_;
+    double lost_ = 0, leap_ = 0; ///< what a lost head, and a leap, make of `fade`
+    std::uint32_t leapt_to_ = 0;
+    Seconds dark_until_{0};
     std::optional<Seconds> time_;
     Similarity before_;
 };

@@ -6,6 +6,8 @@
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace isochron::interaction {
@@ -71,6 +73,8 @@ void show_key(const KeyFrame& key, Settings& settings) {
 Commands kept_state(Commands state) {
     if (state.keys && state.keys->empty())
         state.keys.reset();
+    if (state.story == 0u)
+        state.story.reset();
     return state;
 }
 
@@ -182,6 +186,30 @@ std::vector<KeyFrame> turn_keys(const Settings& settings, const glm::dvec3& pivo
     keys.front().fraction = first.fraction;
     keys.back().step = last.step;
     keys.back().fraction = last.fraction;
+    return keys;
+}
+
+std::vector<KeyFrame> view_keys(std::span<const Viewpoint> views, const glm::dvec3& pivot) {
+    constexpr double kLeast = 0.05; // [s] between views that are alike
+    const auto way = [&](const Similarity& from, const Similarity& to) {
+        const double cosine = std::min(std::abs(glm::dot(from.rotation, to.rotation)), 1.0);
+        return glm::distance(transform(from, pivot), transform(to, pivot)) + 2 * std::acos(cosine) +
+               std::abs(std::log(to.scale / from.scale));
+    };
+    std::vector<double> ways{0};
+    for (std::size_t i = 1; i < views.size(); ++i)
+        ways.push_back(way(views[i - 1].room_from_physical, views[i].room_from_physical));
+    const double all = std::accumulate(ways.begin(), ways.end(), 0.0);
+    const double seconds = kViewSeconds * static_cast<double>(views.size() - 1);
+    std::vector<KeyFrame> keys;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        KeyFrame key;
+        if (i > 0)
+            key.time = keys.back().time + std::max(kLeast, all > 0 ? ways[i] / all * seconds : 0);
+        key.pace = KeyPace::even;
+        key.room_from_physical = views[i].room_from_physical;
+        keys.push_back(std::move(key));
+    }
     return keys;
 }
 

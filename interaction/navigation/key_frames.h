@@ -44,11 +44,18 @@ std::optional<std::size_t> seen_key(const Settings& now, const Pose& viewer);
 std::vector<KeyFrame> turn_keys(const Settings& settings, const glm::dvec3& pivot, Instant first,
                                 Instant last, double seconds);
 
+inline constexpr double kViewSeconds = 3.0; ///< [s] of a move between saved viewpoints, on average
+/// Keys of a film from each viewpoint to the next, all at one speed: meters that the data's center
+/// moves, radians that they turn and the logarithm of their growth, added.
+/// @param views two at least @param pivot center of the data, physical space
+std::vector<KeyFrame> view_keys(std::span<const Viewpoint> views, const glm::dvec3& pivot);
+
 /// Sets all that a key holds, except for the head.
 void show_key(const KeyFrame& key, Settings& settings);
 /// The isosurfaces that a key shows, if it says something of them. @param before what is shown before
 std::optional<std::vector<Isosurface>> surfaces_of(const KeyFrame& key, const Settings& before);
-/// A whole state as files keep it: without an empty list of keys, which earlier versions do not know.
+/// A whole state as files keep it: without an empty list of keys and a story that is not told, which
+/// earlier versions do not know.
 Commands kept_state(Commands state);
 /// Commands for the settings that differ. @param undone only for those that undo brings back
 Commands changes(const Settings& from, const Settings& to, bool undone = false);

@@ -71,7 +71,7 @@ void from_json(const json& value, const Field& field, T& into) {
                                   : number(value, field.key));
 }
 void from_json(const json& value, const Field& field, std::string& into) {
-    into = text(value, field.key, kLongestText);
+    into = text(value, field.key, std::max(field.most, kLongestText)); // of a list, `most` counts items
 }
 template <Named Enum>
 void from_json(const json& value, const Field& field, Enum& into) {
@@ -141,7 +141,7 @@ void from_json(const json& value, const Field& field, Similarity& into) {
     members.done({"translation", "rotation", "scale", "exaggeration"});
 }
 
-// Parts. An optional field that is not set is left out.
+// Parts. An optional field that is not set is left out, and so is a key's text that is empty.
 
 template <Part T>
 json to_json(const T& part) {
@@ -150,6 +150,9 @@ json to_json(const T& part) {
         if constexpr (requires { value.has_value(); }) {
             if (value)
                 result[field.key] = to_json(*value);
+        } else if constexpr (std::same_as<T, KeyFrame> && std::same_as<V, std::string>) {
+            if (!value.empty())
+                result[field.key] = value;
         } else {
             result[field.key] = to_json(value);
         }
@@ -164,11 +167,14 @@ void from_json(const json& value, const Field& field, T& into) {
     std::vector<std::string_view> known;
     const auto read = [&]<class V>(const Field& inner, V& member) {
         known.emplace_back(inner.key);
-        if constexpr (requires { member.has_value(); }) {
-            if (const json* found = members.find(inner.key))
+        constexpr bool kOptional = requires { member.has_value(); };
+        const json* const found = kOptional || inner.may_lack ? members.find(inner.key)
+                                                              : &members.at(inner.key);
+        if constexpr (kOptional) {
+            if (found)
                 from_json(*found, inner, member.emplace());
-        } else if (!inner.may_lack || members.find(inner.key)) {
-            from_json(members.at(inner.key), inner, member);
+        } else if (found) {
+            from_json(*found, inner, member);
         }
     };
     each_field(read, into);

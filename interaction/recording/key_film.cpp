@@ -4,6 +4,7 @@
 #include "interaction/command_fields.h"
 #include "interaction/error.h"
 #include "interaction/navigation/key_motion.h"
+#include "interaction/navigation/story.h"
 #include "interaction/recording/commands_json.h"
 #include "interaction/recording/json_values.h"
 #include "interaction/step_track.h"
@@ -260,6 +261,7 @@ std::vector<RecordedFrame> frames_of(std::span<const KeyFrame> keys, const KeySc
     std::vector<RecordedFrame> frames;
     Settings shown = scene.start;
     shown.keys.clear(); // the film changes none
+    shown.story = 0;
     Settings at_key = shown;
     std::size_t passed = 0;
     for (std::uint64_t i = 0; i <= last; ++i) {
@@ -273,22 +275,25 @@ std::vector<RecordedFrame> frames_of(std::span<const KeyFrame> keys, const KeySc
         view.show(time, now, frame.input);
         surfaces.show(time, now);
         instants.show(time, now);
+        now.story = scene.titled ? titled_key(keys, time) : 0;
         frame.commands = changes(shown, now);
         shown = std::move(now);
     }
     return frames;
 }
 
-std::string keys_text(std::span<const KeyFrame> keys) {
+std::string keys_text(std::span<const KeyFrame> keys, const std::string& data) {
     Commands commands;
     commands.keys.emplace(keys.begin(), keys.end());
-    const json value{{"format", kKeysFormat},
-                     {"version", kKeysVersion},
-                     {"keys", commands_json(commands).at("keys")}};
+    json value{{"format", kKeysFormat},
+               {"version", kKeysVersion},
+               {"keys", commands_json(commands).at("keys")}};
+    if (!data.empty())
+        value["data"] = data;
     return value.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 
-std::vector<KeyFrame> keys_from(std::string_view text, const std::string& name) {
+std::vector<KeyFrame> keys_from(std::string_view text, const std::string& name, std::string* data) {
     constexpr int kDeepest = 16;
     const auto fail_with = [&](const std::string& what) {
         throw Error(fmt::format("{}: {}", name, what));
@@ -330,7 +335,12 @@ std::vector<KeyFrame> keys_from(std::string_view text, const std::string& name) 
                                         kLongestFilm, rests));
         }
         where.clear();
-        members.done({"format", "version", "keys"});
+        if (const json* const named = members.find("data")) {
+            const std::string index = interaction::text(*named, "data", kLongestArrayName);
+            if (data)
+                *data = index;
+        }
+        members.done({"format", "version", "keys", "data"});
     } catch (const Error& mistake) {
         fail_with(where + mistake.what());
     }

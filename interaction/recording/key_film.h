@@ -26,6 +26,7 @@ struct KeyScene {
     StepTimes times{};        ///< when the steps are; not empty
     glm::dvec3 pivot{0.0};    ///< center of the data, physical space
     double rate = 30.0;       ///< frames a second
+    bool titled = false;      ///< frames say which key's title is seen, by `Settings::story`
     bool logarithmic = false; ///< isovalues above 0 change by equal factors in equal times
 };
 
@@ -42,9 +43,12 @@ struct KeyScene {
 std::vector<RecordedFrame> frames_of(std::span<const KeyFrame> keys, const KeyScene& scene);
 
 /// The file of keys: a JSON object of `format`, `version` and `keys`, as docs/FORMATS.md says.
-std::string keys_text(std::span<const KeyFrame> keys);
+/// @param data name of the index that a story is about; empty: the file names none
+std::string keys_text(std::span<const KeyFrame> keys, const std::string& data = {});
 /// @param name of the file, for messages
+/// @param data gets the name of the index, as the file says it; null: it is not wanted
 /// @throws Error in one line, naming file and key: not keys, a newer version, keys out of order, ...
-std::vector<KeyFrame> keys_from(std::string_view text, const std::string& name);
+std::vector<KeyFrame> keys_from(std::string_view text, const std::string& name,
+                                std::string* data = nullptr);
 
 } // namespace isochron::interaction

@@ -11,6 +11,7 @@
 #include <array>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -71,6 +72,16 @@ bool text_field(const char* id, const char* hint, std::string& words) {
     std::array<char, kLongest + 1> characters{};
     words.copy(characters.data(), kLongest);
     const bool changed = ImGui::InputTextWithHint(id, hint, characters.data(), characters.size());
+    words = characters.data();
+    return changed;
+}
+
+bool text_area(const char* id, std::string& words, float width, float height, std::size_t most) {
+    ImGui::GetStateStorage()->SetInt(ImGui::GetID(id), kWords);
+    std::vector<char> characters(most + 1);
+    words.copy(characters.data(), most);
+    const bool changed =
+        ImGui::InputTextMultiline(id, characters.data(), characters.size(), {width, height});
     words = characters.data();
     return changed;
 }

@@ -3,6 +3,7 @@
 
 #include "interaction/input/window_event.h"
 
+#include <cstddef>
 #include <string>
 
 namespace isochron::app {
@@ -14,6 +15,10 @@ bool text_field(const char* id, const char* hint, std::string& words);
 /// room, keys on the panel take the place of the keyboard.
 /// @return whether the user has finished another text
 bool finished_text(const char* id, const char* hint, std::string& words);
+
+/// A field of several lines for words. @param width, height panel pixels @param most bytes that it takes
+/// @return whether the words have changed
+bool text_area(const char* id, std::string& words, float width, float height, std::size_t most);
 
 /// Passes typed characters to the field of ImGui that has the keyboard. A comma is a decimal point
 /// there: ImGui would leave it out, and 1,5 would become 15. A second point or comma, or one in a

@@ -2,6 +2,7 @@
 #include "app/panel/parts/film_lane.h"
 
 #include "app/config/first_placement.h"
+#include "app/panel/imgui/number_entry.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/rows.h"
@@ -9,6 +10,7 @@
 #include "app/panel/parts/time_track.h"
 #include "interaction/command_fields.h"
 #include "interaction/navigation/key_frames.h"
+#include "interaction/navigation/story.h"
 #include "interaction/recording/key_film.h"
 
 #include <fmt/format.h>
@@ -37,6 +39,7 @@ using interaction::Commands;
 using interaction::KeyFrame;
 
 constexpr float kFilmMark = 6.0f, kFilmHand = 8.0f; ///< panel pixels
+constexpr float kKeyList = 390.0f;                  ///< width of a key's text
 
 std::shared_ptr<FilmPreview> begun_preview(const PanelModel& model) {
     constexpr double kUsualRate = 30, kMostFrames = 20'000;
@@ -99,11 +102,11 @@ void draw_key(const LaneTrack& track, const KeyFrame& key, double time, bool cho
 }
 
 std::string words_of_mark(const std::vector<KeyFrame>& keys, std::size_t number) {
-    return fmt::format("key {} of {}, at {:.4g} s{}\na click shows it, drag it to another time of "
-                       "the film, Delete removes it",
-                       number + 1, keys.size(), keys[number].time,
-                       keys[number].hold > 0 ? fmt::format(", held for {:.4g} s", keys[number].hold)
-                                             : "");
+    return fmt::format(
+        "{}, {} of {}, at {:.4g} s{}\na click shows it, drag it to another time of "
+        "the film, Delete removes it",
+        interaction::name_of_key(keys, number), number + 1, keys.size(), keys[number].time,
+        keys[number].hold > 0 ? fmt::format(", held for {:.4g} s", keys[number].hold) : "");
 }
 
 /// The marks, and what the hand does with them.
@@ -130,7 +133,7 @@ void marks_on(const LaneTrack& track, const PanelModel& model, FilmLane& lane, C
     for (std::size_t i = 0; i < keys.size(); ++i)
         draw_key(track, keys[i], moved[i].time, lane.chosen == i);
     if (moves)
-        ImGui::SetTooltip("key %d at %.4g s", static_cast<int>(*lane.dragged) + 1,
+        ImGui::SetTooltip("%s at %.4g s", interaction::name_of_key(keys, *lane.dragged).c_str(),
                           moved[*lane.dragged].time);
     else if (under)
         ImGui::SetTooltip("%s", words_of_mark(keys, *under).c_str());
@@ -149,10 +152,59 @@ void marks_on(const LaneTrack& track, const PanelModel& model, FilmLane& lane, C
     }
 }
 
-/// The keys as rows of numbers.
+/// A text that has been written becomes its key's.
+void take_draft(const PanelModel& model, FilmLane& lane, Commands& commands) {
+    const auto draft = std::exchange(lane.draft, std::nullopt);
+    std::vector<KeyFrame> keys = model.asked.keys;
+    if (!draft || draft->first >= keys.size() || keys[draft->first].text == draft->second)
+        return;
+    keys[draft->first].text = draft->second;
+    commands.keys = std::move(keys);
+}
+
+/// What the story says at the chosen key, and where.
+void text_of_key(const PanelModel& model, FilmLane& lane, Commands& commands) {
+    const std::size_t number = *lane.chosen;
+    std::vector<KeyFrame> keys = model.asked.keys;
+    ImGui::TextColored(
+        color_of(Ink::dim), "%s",
+        fmt::format("What the story says at {}", interaction::name_of_key(keys, number)).c_str());
+    std::string words =
+        lane.draft && lane.draft->first == number ? lane.draft->second : keys[number].text;
+    if (text_area(fmt::format("##text{}", number).c_str(), words, kKeyList, 84.0f,
+                  interaction::kLongestStoryText))
+        lane.draft = {number, words};
+    if (ImGui::IsItemDeactivated())
+        take_draft(model, lane, commands);
+    const auto& mark = model.asked.mark.point;
+    const bool placed = keys[number].place.has_value();
+    ImGui::BeginDisabled(!mark);
+    if (ImGui::Button(placed ? "about the mark instead" : "about the mark")) {
+        keys[number].place = mark->position;
+        commands.keys = keys;
+    }
+    ImGui::EndDisabled();
+    tip(mark ? "a line leads from the text to the place of the mark"
+             : "pick a place: a line leads from the text to it");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!placed);
+    if (ImGui::Button("about no place")) {
+        keys[number].place.reset();
+        commands.keys = keys;
+    }
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    ImGui::BeginDisabled(keys[number].text.empty());
+    if (ImGui::Button("tell it"))
+        commands.story = static_cast<std::uint32_t>(number) + 1;
+    ImGui::EndDisabled();
+    tip("tell the story from this step (Ctrl + Page Down goes on)");
+}
+
+/// The keys as rows of names and numbers.
 void list_of_keys(const PanelModel& model, FilmLane& lane, Commands& commands) {
     if (!ImGui::BeginPopup("keys"))
-        return;
+        return take_draft(model, lane, commands);
     popup_title("Key frames");
     std::vector<KeyFrame> keys = model.asked.keys;
     for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -162,11 +214,18 @@ void list_of_keys(const PanelModel& model, FilmLane& lane, Commands& commands) {
             lane.chosen = i;
             interaction::merge(commands, interaction::way_to_key(keys[i], model.asked, model.head));
         }
-        tip("show this key");
+        tip("show this key, and what the story says there");
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(150.0f);
+        if (std::string name = keys[i].name;
+            finished_text("##name", "name", name) && name.size() <= interaction::kLongestText) {
+            commands.keys = keys;
+            (*commands.keys)[i].name = name;
+        }
         const auto field = [&](const char* id, double value, const char* format,
                                const char* words) {
             ImGui::SameLine();
-            ImGui::SetNextItemWidth(92.0f);
+            ImGui::SetNextItemWidth(86.0f);
             double changed = value;
             ImGui::InputDouble(id, &changed, 0, 0, format);
             tip(words);
@@ -183,6 +242,8 @@ void list_of_keys(const PanelModel& model, FilmLane& lane, Commands& commands) {
             commands.keys = interaction::without_key(keys, i);
         ImGui::PopID();
     }
+    if (lane.chosen)
+        text_of_key(model, lane, commands);
     ImGui::EndPopup();
 }
 

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace isochron::app {
 
@@ -21,6 +23,8 @@ struct FilmLane {
     bool under_hand = false;                    ///< the cursor was over it in the last frame
     bool removes = false;                       ///< the chosen key goes in the next frame
     std::shared_ptr<FilmPreview> preview;       ///< while the film plays
+    /// A key's text that is being written.
+    std::optional<std::pair<std::size_t, std::string>> draft;
 };
 
 /// Draws it into its row of the layout, where there are keys.

@@ -70,7 +70,7 @@ void tool_buttons(const PanelModel& model, Commands& commands) {
 }
 
 /// Beside the button that saves a picture: what pictures show.
-void picture_menu(const PanelModel& model, Commands& commands) {
+void picture_menu(const PanelModel& model, PanelPages& pages, Commands& commands) {
     ImGui::SameLine(0.0f, 0.0f);
     if (icon_button("picture menu", Icon::menu, "what pictures show, and their size", false, 20.0f))
         ImGui::OpenPopup("pictures");
@@ -78,6 +78,11 @@ void picture_menu(const PanelModel& model, Commands& commands) {
         return;
     popup_title("What pictures show");
     picture_rows(model, commands);
+    ImGui::BeginDisabled(!model.movies.offered || model.movies.progress);
+    if (ImGui::Button("figure of this view"))
+        pages.movie = MovieWish::figure;
+    ImGui::EndDisabled();
+    tip("a page for a paper, as PDF, and its description, which `isochron figure` reads");
     ImGui::EndPopup();
 }
 
@@ -119,7 +124,7 @@ void top_bar(const PanelModel& model, PanelPages& pages, Commands& commands) {
     if (icon_button("picture", Icon::picture, "save a screenshot of every window (P)"))
         commands.screenshot = true;
     if (whole >= kNarrowBar)
-        picture_menu(model, commands);
+        picture_menu(model, pages, commands);
     if (whole >= kNarrowBar) {
         ImGui::SameLine(0.0f, 2.0f);
         export_button(model, commands);

@@ -7,6 +7,7 @@
 #include "app/panel/parts/theme.h"
 #include "interaction/controls/key_frame_controls.h"
 #include "interaction/navigation/key_frames.h"
+#include "interaction/navigation/story.h"
 #include "interaction/step_track.h"
 
 #include <fmt/format.h>
@@ -114,8 +115,8 @@ void picture_rows(const PanelModel& model, interaction::Commands& commands) {
     keep(model, pictures, commands);
 }
 
-/// The film's key frames. @return whether the user wants a movie of them
-bool key_row(const PanelModel& model, interaction::Commands& commands) {
+/// The film's key frames. @return what the user wants to be made of them
+std::optional<MovieWish> key_row(const PanelModel& model, interaction::Commands& commands) {
     using interaction::Action;
     const auto& keys = model.asked.keys;
     const double seconds = interaction::seconds_of(keys);
@@ -139,11 +140,31 @@ bool key_row(const PanelModel& model, interaction::Commands& commands) {
         if (action != Action::next_key)
             ImGui::SameLine();
     }
-    ImGui::BeginDisabled(keys.size() < 2);
-    const bool wanted = ImGui::Button("film of these keys");
-    ImGui::EndDisabled();
-    tip(keys.size() < 2 ? "a film needs two keys" : "a movie that goes through all keys");
-    return wanted;
+    std::optional<MovieWish> wish;
+    const auto button = [&](const char* label, MovieWish wanted, bool can, const char* effect,
+                            const char* why_not) {
+        ImGui::BeginDisabled(!can);
+        if (ImGui::Button(label))
+            wish = wanted;
+        ImGui::EndDisabled();
+        tip(can ? effect : why_not);
+    };
+    const bool film = keys.size() > 1;
+    button("film of these keys", MovieWish::keys, film, "a movie that goes through all keys",
+           "a film needs two keys");
+    ImGui::SameLine();
+    button("with titles", MovieWish::titled, film && interaction::has_titles(keys),
+           "the same, with the names and texts of the keys at the bottom",
+           film ? "no key has a name or a text: the list of keys below the picture gives them"
+                : "a film needs two keys");
+    button("save as story", MovieWish::story, interaction::story_step(keys, 0).of > 0,
+           "a file of the keys beside the data: `isochron explore` opens it and tells the story",
+           "no key has a text: the list of keys below the picture gives it one");
+    ImGui::SameLine();
+    button("along the viewpoints", MovieWish::views, model.asked.views.size() > 1,
+           "a movie from each saved viewpoint to the next, at one speed",
+           "a film along viewpoints needs two that are saved (B)");
+    return wish;
 }
 
 std::optional<MovieWish> movie_rows(const PanelModel& model, interaction::Commands& commands) {
@@ -179,8 +200,7 @@ std::optional<MovieWish> movie_rows(const PanelModel& model, interaction::Comman
     folder_row(pictures);
     text_row("", model.movies.words);
     keep(model, pictures, commands);
-    if (key_row(model, commands))
-        wish = MovieWish::keys;
+    wish = key_row(model, commands);
     ImGui::BeginDisabled(steps < 2);
     if (ImGui::Button("these steps, this view"))
         wish = MovieWish::series;

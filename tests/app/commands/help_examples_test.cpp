@@ -207,12 +207,13 @@ std::vector<std::string> commands_in(const std::filesystem::path& page) {
     return found;
 }
 
-/// A page's block of JSON.
-std::string block_in(const std::filesystem::path& page) {
+/// One of a page's blocks of JSON, or of another kind. @param number from 0
+std::string block_in(const std::filesystem::path& page, const std::string& kind = "json",
+                     int number = 0) {
     std::ifstream lines(page);
     std::string block, line;
-    while (std::getline(lines, line) && line != "```json") {
-    }
+    while (number >= 0 && std::getline(lines, line))
+        number -= line == "```" + kind;
     while (std::getline(lines, line) && line != "```")
         block += line + '\n';
     return block;
@@ -231,6 +232,29 @@ TEST_F(HelpExamples, OfThePageAboutSteeringWorkInASession) {
         all += command + "\n";
     const ChildResult result = shell(all + "isochron tell quit\nwait $!");
     EXPECT_EQ(result.status, 0) << result.err;
+}
+
+// Its other commands are tried with those of the other pages.
+TEST_F(HelpExamples, OfThePageAboutStoriesTellOneInAWindow) {
+    test_support::VirtualDisplay screen;
+    environment_.push_back(std::string("DISPLAY=") + std::getenv("DISPLAY"));
+    ASSERT_EQ(shell("isochron generate sphere --step-count 12 -o run42").status, 0);
+    ASSERT_EQ(shell("isochron build run42 -o run42.isochron").status, 0);
+    const std::string page = test_support::source_root() + "/docs/guide/stories.md";
+    folder_.write("tour.isochron-story", block_in(page, "json", 1));
+    std::ifstream lines(page);
+    int told = 0;
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("isochron explore ")) {
+            const ChildResult result =
+                shell(line + " --size 640 480 --seconds 0.5 --record told.jsonl --force");
+            EXPECT_EQ(result.status, 0) << line << '\n' << result.err;
+            const std::string kept = folder_.read("told.jsonl");
+            EXPECT_NE(kept.find("\"story\":1"), std::string::npos) << line;
+            EXPECT_NE(kept.find("front arrives"), std::string::npos) << line;
+            ++told;
+        }
+    EXPECT_EQ(told, 2);
 }
 
 /// A step of a flow as a solver of a finite volume writes it, in SI units: pressure, temperature, velocity
@@ -300,7 +324,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values("README", "docs/guide/data", "docs/guide/tutorial", "docs/guide/recordings",
                     "docs/guide/cells", "docs/guide/export", "docs/guide/programs",
                     "docs/guide/walls", "docs/guide/clusters", "docs/guide/trackers",
-                    "docs/guide/measure", "docs/guide/sharing", "docs/guide/figures"),
+                    "docs/guide/measure", "docs/guide/sharing", "docs/guide/figures", "docs/guide/stories"),
     [](const auto& page) { return page.param.substr(page.param.rfind('/') + 1); });
 
 TEST_P(GuideCommands, WorkAsTheyAreWritten) {
@@ -311,6 +335,10 @@ TEST_P(GuideCommands, WorkAsTheyAreWritten) {
         commands_in(test_support::source_root() + "/" + page + ".md");
     EXPECT_FALSE(commands.empty());
     folder_.write("keys.json", block_in(test_support::source_root() + "/docs/guide/recordings.md"));
+    const std::string stories = test_support::source_root() + "/docs/guide/stories.md";
+    folder_.write("film.json", block_in(stories));
+    folder_.write("tour.isochron-story", block_in(stories, "json", 1));
+    folder_.write("pair.toml", block_in(stories, "toml"));
     for (std::string command : commands) {
         shorten(command);
         const ChildResult result = shell(command);

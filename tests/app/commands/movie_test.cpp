@@ -7,6 +7,7 @@
 #include "index/error.h"
 #include "index/indexing/index_build.h"
 #include "interaction/recording/recording.h"
+#include "stereo/image_file.h"
 #include "tests/support/child_process.h"
 #include "tests/support/memory_series.h"
 
@@ -374,6 +375,70 @@ TEST_F(MovieTest, OfKeysGoesThroughThemAndIsTheSameTwiceAndAsARecording) {
     EXPECT_EQ(turn.frames.back().commands.instant, index::Instant(5));
     EXPECT_NE(program({"movie", "film.jsonl", "--turn", "-o", "no/"}).status, 0);
     EXPECT_NE(program({"movie", "film.jsonl", "-o", "no.jsonl"}).status, 0);
+}
+
+// Two lines at the bottom, and nothing else, while the film rests at a key that has words.
+TEST_F(MovieTest, OfKeysHasTheirNamesAndTextsAsTitlesWhereThatIsAskedFor) {
+    build_sphere(folder_.path());
+    const auto movie = [&](const std::string& source, const std::string& out,
+                           const std::vector<std::string>& more) {
+        std::vector<std::string> all{"movie", source, "-o",     out, "--size",
+                                     "320",   "240",  "--rate", "2"};
+        all.insert(all.end(), more.begin(), more.end());
+        return run_child(test_support::binary_root() + "/isochron", all, folder_.path());
+    };
+    folder_.write("keys.json", R"({"format": "isochron keys", "version": 1, "keys": [
+        {"time": 0}, {"time": 1, "hold": 2, "name": "front", "text": "It is here, %s <b>."},
+        {"time": 4, "step": 1}]})");
+    ASSERT_EQ(movie("sphere.isochron", "plain/", {"--keys", "keys.json"}).status, 0);
+    ASSERT_EQ(movie("sphere.isochron", "titled/", {"--keys", "keys.json", "--titles"}).status, 0);
+    ASSERT_EQ(movie("sphere.isochron", "film.jsonl", {"--keys", "keys.json", "--titles"}).status,
+              0);
+    ASSERT_EQ(movie("film.jsonl", "again/", {"--titles"}).status, 0);
+    const auto picture = [&](const char* name, int frame) {
+        return stereo::read_image(folder_.path() / fmt::format("{}/frame_{:05}.png", name, frame));
+    };
+    for (int i = 0; i <= 8; ++i) {
+        const render::Image plain = picture("plain", i), titled = picture("titled", i);
+        int low = 0, high = 0, most = 0; // rows that differ, from the top
+        for (std::size_t at = 0; at < plain.rgba.size(); ++at)
+            if (plain.rgba[at] != titled.rgba[at]) {
+                const int row = static_cast<int>(at / 4) / plain.width;
+                low = most == 0 ? row : std::min(low, row);
+                high = std::max(high, row);
+                most = std::max(most, std::abs(plain.rgba[at] - titled.rgba[at]));
+            }
+        // At 1 s it begins to come, after 3 s it has gone.
+        EXPECT_EQ(most > 0, i > 2 && i <= 6) << i;
+        if (most > 0) {
+            EXPECT_GT(low, 240 - 60) << i;
+            EXPECT_LT(low, 240 - 30) << "two lines";
+            EXPECT_LT(high, 240) << i;
+            EXPECT_GT(most, 100) << i;
+        }
+        EXPECT_EQ(picture("again", i).rgba, titled.rgba) << "as a recording";
+    }
+    EXPECT_EQ(run_child(test_support::binary_root() + "/isochron",
+                        {"reproduce", "titled/frame_00004.png"}, folder_.path())
+                  .status,
+              0);
+    folder_.write(
+        "mute.json",
+        R"({"format": "isochron keys", "version": 1, "keys": [{"time": 0}, {"time": 1}]})");
+    using Row = std::pair<std::string, std::vector<std::string>>;
+    for (const auto& [source, wrong] :
+         std::vector<Row>{{"sphere.isochron", {"--titles"}},
+                          {"sphere.isochron", {"--keys", "mute.json", "--titles"}},
+                          {"sphere.isochron", {"--keys", "keys.json", "--titles", "--panorama"}},
+                          {"mute.jsonl", {"--titles"}}}) {
+        if (source == "mute.jsonl") {
+            ASSERT_EQ(movie("sphere.isochron", source, {"--keys", "keys.json"}).status, 0);
+        }
+        const ChildResult refused = movie(source, "no/", wrong);
+        EXPECT_NE(refused.status, 0);
+        EXPECT_THAT(refused.err, testing::HasSubstr("--titles"));
+        EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    }
 }
 
 TEST_F(MovieTest, OfKeysThatFitNoDataOrAreAskedForTwiceIsRefusedInOneLine) {

@@ -261,5 +261,37 @@ TEST(History, HasWordsForEveryChangeThatCanBeUndone) {
     }
 }
 
+// Whatever a step of a story shows stays, and the change before it is undone alone.
+TEST(History, UndoesNoStepOfAStory) {
+    Explorer explorer;
+    Commands change, step, look;
+    change.isosurfaces = {{.isovalue = 2, .opacity = 0.5f}};
+    explorer.obey(change, 1);
+    look.grid = true;
+    explorer.obey(look, 3);
+    step.keys.emplace(1);
+    step.keys->front().text = "a";
+    explorer.obey(step, 5); // the keys are a change of the user's
+    step = {};
+    step.story = 1;
+    step.room_from_physical = interaction::Similarity{{1, 2, 3}, {1, 0, 0, 0}, 2};
+    step.instant.emplace(3);
+    explorer.obey(step, 7);
+    const ExplorerState told = explorer.state;
+    ASSERT_TRUE(explorer.undo(9));
+    EXPECT_TRUE(explorer.state.keys.empty());
+    ASSERT_TRUE(explorer.undo(10));
+    EXPECT_FALSE(explorer.state.grid);
+    EXPECT_EQ(explorer.state.isosurfaces, told.isosurfaces);
+    ASSERT_TRUE(explorer.undo(11));
+    EXPECT_NE(explorer.state.isosurfaces, told.isosurfaces);
+    EXPECT_EQ(explorer.state.room_from_physical, told.room_from_physical);
+    EXPECT_EQ(explorer.state.instant, index::Instant(3));
+    EXPECT_FALSE(explorer.undo(12));
+    while (explorer.redo(13)) {
+    }
+    EXPECT_TRUE(same_to_undo(explorer.state, told));
+}
+
 } // namespace
 } // namespace isochron::app

@@ -5,6 +5,7 @@
 #include "interaction/navigation/key_frames.h"
 
 #include <gmock/gmock.h>
+#include <imgui_internal.h>
 
 #include <cmath>
 
@@ -122,6 +123,104 @@ TEST_F(FilmLaneTest, IsNotThereWithoutKeys) {
     EXPECT_TRUE(says_film());
     asked_.keys.clear();
     EXPECT_FALSE(says_film());
+}
+
+TEST_F(FilmLaneTest, AKeyGetsANameAndATextInTheListAndTheTextIsWhatTheStoryTells) {
+    const PanelBox row = layer_.layout().film;
+    click({row.high.x - 44, (row.low.y + row.high.y) / 2}); // the list
+    EXPECT_FALSE(click_word("name").keys);
+    type("front, late"); // a comma is one
+    Commands named = frame({interaction::KeyEvent{interaction::Key::enter, true, 0},
+                            interaction::KeyEvent{interaction::Key::enter, false, 0}});
+    merge(named, frame());
+    ASSERT_TRUE(named.keys);
+    EXPECT_EQ((*named.keys)[0].name, "front, late");
+    asked_.keys = *named.keys;
+    asked_.mark.point.emplace();
+    asked_.mark.point->position = {1, 2, 3};
+    click_word("2"); // chosen, and shown
+    const auto below = [&](const char* words, float by) {
+        for (int i = 0; i < 3; ++i)
+            frame();
+        const auto at =
+            place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), words);
+        EXPECT_TRUE(at) << words;
+        return at ? glm::vec2(at->x, at->y + by) : glm::vec2(0.0f);
+    };
+    click(below("What the story says at key 2", 30));
+    type("1.5 <b>m</b>, 100 %s http://a");
+    const Commands written = click(below("What the story says at key 2", 2));
+    ASSERT_TRUE(written.keys);
+    EXPECT_EQ((*written.keys)[1].text, "1.5 <b>m</b>, 100 %s http://a");
+    asked_.keys = *written.keys;
+    const Commands placed = click_word("about the mark");
+    ASSERT_TRUE(placed.keys);
+    EXPECT_EQ((*placed.keys)[1].place, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(click_word("tell it").story, 2u);
+}
+
+/// The card of a story, which two of the keys tell.
+class StoryCardTest : public FilmLaneTest {
+  protected:
+    StoryCardTest() {
+        asked_.keys[0].text = "At first.";
+        asked_.keys[2].text = "In the end.";
+        asked_.keys[2].name = "the end";
+        asked_.story = 1;
+    }
+    bool says(const std::string& words) {
+        for (int i = 0; i < 3; ++i)
+            frame();
+        return place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), words)
+            .has_value();
+    }
+};
+
+TEST_F(StoryCardTest, GoesThroughTheStepsAndLeaves) {
+    for (const bool panel : {true, false}) {
+        asked_.panel = panel;
+        asked_.story = 1;
+        EXPECT_TRUE(says("1 of 2")) << panel;
+        EXPECT_TRUE(says("At first."));
+        EXPECT_FALSE(click_word("Previous").story) << "there is none";
+        EXPECT_EQ(click_word("Next").story, 3u);
+        asked_.story = 3;
+        EXPECT_TRUE(says("2 of 2: the end"));
+        EXPECT_FALSE(click_word("Next").story);
+        EXPECT_EQ(click_word("Previous").story, 1u);
+        EXPECT_EQ(click_word("Leave").story, 0u);
+        asked_.story = 2; // a key without a text
+        EXPECT_FALSE(says("Leave"));
+    }
+}
+
+TEST_F(StoryCardTest, StaysInThePictureHoweverLongItsTextIsAndShowsItAsItIs) {
+    const std::string kinds[]{std::string(interaction::kLongestStoryText, 'w'),
+                              [] {
+                                  std::string words;
+                                  while (words.size() + 5 < interaction::kLongestStoryText)
+                                      words += "long ";
+                                  return words;
+                              }(),
+                              std::string(interaction::kLongestStoryText, '\n'),
+                              "%s%n%d <b>bold</b>\n##id ###id \x1b[31m \xe2\x80\xae"};
+    for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(320, 240), kSize})
+        for (const bool panel : {true, false})
+            for (const std::string& text : kinds) {
+                size_ = size;
+                asked_.panel = panel;
+                asked_.keys[0].text = text;
+                for (int i = 0; i < 4; ++i)
+                    frame();
+                const ImGuiWindow* const card = ImGui::FindWindowByName("###story");
+                ASSERT_TRUE(card && card->Active);
+                EXPECT_GE(card->Pos.x, 0) << size.x;
+                EXPECT_GE(card->Pos.y, 0) << size.x << panel << text.substr(0, 9);
+                EXPECT_LE(card->Pos.x + card->Size.x, static_cast<float>(size.x));
+                EXPECT_LE(card->Pos.y + card->Size.y, static_cast<float>(size.y));
+                EXPECT_EQ(click_word("Next").story, 3u);
+            }
+    EXPECT_TRUE(says("%s%n%d <b>bold</b>"));
 }
 
 } // namespace

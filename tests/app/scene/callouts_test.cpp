@@ -266,5 +266,17 @@ TEST(Callouts, AreAsHighAsTheWordsOfThePanel) {
     EXPECT_FLOAT_EQ(text_height({1280, 720}, 15.0f / 1440), 11) << "small pictures can be read";
 }
 
+TEST(Callouts, AStepOfAStoryStandsBesideItsPlaceBeforeAllOthers) {
+    Picture picture;
+    picture.room_from_physical = {{0, 0, -3}, glm::dquat(1, 0, 0, 0), 2};
+    picture.marks = {{"kept", {}}};
+    picture.told = ToldPlace{{0.25, 0.5, 0}, {"1 of 2: front", "It is here."}};
+    const auto callouts = callouts_of(picture, {}, {});
+    ASSERT_EQ(callouts.size(), 2u);
+    EXPECT_EQ(callouts[0].at, glm::vec3(0.5f, 1.0f, -3.0f));
+    EXPECT_EQ(callouts[0].lines, picture.told->lines);
+    EXPECT_EQ(callouts[0].sign, CalloutSign::dot);
+}
+
 } // namespace
 } // namespace isochron::app

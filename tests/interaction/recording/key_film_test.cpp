@@ -7,6 +7,7 @@
 #include "tests/interaction/obeyed.h"
 #include "tests/support/test_seed.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -428,6 +429,11 @@ TEST(KeyFrames, DamagedFilesOfKeysAreRefusedInOneLine) {
     EXPECT_EQ(with(R"([{"time":0,"pace":"fast"}])"),
               "k.json: key 1: pace: expected eased or even, got \"fast\"");
     EXPECT_EQ(with(R"([{"time":0,"stepp":1}])"), "k.json: key 1: keys: unknown key \"stepp\"");
+    for (const char* known : {R"("hold":1)", R"("pace":"even")", R"("fraction":1)", R"("text":"a")",
+                              R"("coloring":{"by":"value","map":"viridis","bands":2,"run":1})"})
+        EXPECT_THAT(with(fmt::format(R"([{{"time":0,{},"run":1}}])", known)),
+                    testing::HasSubstr("unknown key \"run\""))
+            << "beside what may lack";
     EXPECT_EQ(refusal(std::string(40, '[')), "k.json: nested deeper than 16 levels");
     // Cut off anywhere, it is refused and nothing worse.
     const std::string whole = keys_text(std::vector<KeyFrame>{key_of({}, kStanding)});

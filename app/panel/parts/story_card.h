@@ -1,0 +1,18 @@
+// The card of a story: the text of the step that is told, and the way to the other steps.
+#pragma once
+
+#include "app/panel/panel_model.h"
+#include "app/panel/parts/panel_layout.h"
+#include "interaction/commands.h"
+
+namespace isochron::app {
+
+/// Lays the card out at the lower left of the picture, with a line to the place that its text is
+/// about; nothing while no story is told. A text that is too long is scrolled.
+/// @return whether one is told
+bool story_card(const PanelModel& model, const PanelBox& picture, interaction::Commands& commands);
+
+/// The same in the current window, for panels without a picture.
+void story_rows(const PanelModel& model, interaction::Commands& commands);
+
+} // namespace isochron::app

@@ -55,7 +55,7 @@ void join_equal_points(StatedModel& model) {
         corner = number[corner];
 }
 
-/// Of each point, where its corners begin in a list of all corners by points.
+/// Where the corners of each point begin in a list of all corners by points.
 struct CornersOfPoints {
     std::vector<std::uint64_t> first;
     std::vector<std::uint32_t> corners;

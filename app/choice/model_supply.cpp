@@ -58,7 +58,9 @@ double span(const Box& box) {
 
 ModelSupply::ModelSupply(const fs::path& data)
     : reading_(read, [](const Wanted& wanted, const std::string& why, bool) {
-          return Read{wanted.path, nullptr, why};
+          const bool named = why.find(wanted.file.filename().string()) != std::string::npos;
+          return Read{wanted.path, nullptr,
+                      named ? why : fmt::format("{}: {}", wanted.file.string(), why)};
       }) {
     if (!index::is_link(data.string()))
         add_folder(data.parent_path());

@@ -76,9 +76,9 @@ class ModelSupply {
     struct Wanted {
         std::string path; ///< as the setting has it
         std::filesystem::path file;
-        std::string unit; ///< of length of the data
+        std::string unit; ///< unit of length of the data
         std::optional<std::uint32_t> step{};
-        std::size_t steps = 0; ///< of the data
+        std::size_t steps = 0; ///< steps of the data
     };
     static Read read(const Wanted& wanted, const Asking& asking);
     std::filesystem::path place_of(const std::string& path) const;

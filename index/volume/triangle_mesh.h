@@ -16,7 +16,7 @@ namespace isochron::index {
 struct TriangleMesh {
     glm::dvec3 origin{0.0};         ///< physical space
     std::vector<glm::vec3> points;  ///< physical space, less `origin`
-    std::vector<glm::vec3> normals; ///< of each point, of any length; 0: none. Empty: none has one
+    std::vector<glm::vec3> normals; ///< one a point, of any length; 0: none. Empty: none has one
     std::vector<std::uint32_t> corners; ///< three points a triangle
 
     std::size_t triangles() const { return corners.size() / 3; }

@@ -1,7 +1,4 @@
 // Draws triangles that stand beside the cells, lit as surfaces are.
-//
-//     pass.hold(meshes);                                      // all that are drawn from now on
-//     pass.draw(view, placement, *mesh, {color, opacity}, appearance);
 #pragma once
 
 #include "index/volume/grid.h"

@@ -1,6 +1,4 @@
 // Models: files of triangles, read in processes of their own.
-//
-//     const index::TriangleMesh hull = index::read_model("hull.stl");
 #pragma once
 
 #include "index/volume/triangle_mesh.h"

@@ -4,6 +4,7 @@
 #include "tests/interaction/input_builders.h"
 #include "tests/support/session_fixture.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
@@ -155,6 +156,31 @@ TEST_P(SessionModels, OfOthersAreOpenedInTheirFoldersAlone) {
     EXPECT_EQ(opened(), 1u);
     session.models().add_folder(elsewhere.path());
     EXPECT_EQ(session.models().allow(folder_.path() / "deep/hull.obj"), "deep/hull.obj");
+}
+
+TEST_P(SessionModels, OfASeriesAreThoseOfTheStep) {
+    for (int i = 0; i < 6; ++i) // in natural order: hull_8 to hull_13
+        folder_.write(fmt::format("hull_{}.obj", i + 8),
+                      fmt::format("v {0} 0 0\nv {0} 9 0\nv {0} 0 9\nf 1 2 3\n", 3 * i));
+    for (const char* name : {"hull_*.obj", "hull_%02d.obj"}) {
+        Session session(plain(), file_, *context_);
+        session.frame(head_at_rest(0), shown(name, interaction::QualityMode::fast),
+                      Waiting::for_cells);
+        for (const std::uint32_t step : {0u, 5u, 2u}) {
+            Commands commands;
+            commands.instant = index::Instant(step);
+            session.frame(head_at_rest(1 + step), commands, Waiting::for_cells);
+            const auto models = session.models().shown(session.state());
+            ASSERT_EQ(models.size(), 1u) << name;
+            EXPECT_EQ(index::bounds(*models[0].mesh)[0].x, 3.0 * step);
+        }
+    }
+    folder_.write("hull_14.obj", kPlate);
+    EXPECT_THAT(faults("hull_*.obj"), ElementsAre(HasSubstr("7 files, expected 6")));
+    std::filesystem::remove(folder_.path() / "hull_14.obj");
+    std::filesystem::remove(folder_.path() / "hull_8.obj");
+    std::filesystem::create_symlink("/etc/passwd", folder_.path() / "hull_8.obj");
+    EXPECT_THAT(faults("hull_*.obj"), ElementsAre(HasSubstr("is a link")));
 }
 
 TEST_P(SessionModels, ReplayAlikeAndComeBackByUndo) {

@@ -55,7 +55,7 @@ void join_equal_points(StatedModel& model) {
         corner = number[corner];
 }
 
-/// Of each point, where its corners begin in a list of all corners by points.
+/// Where the corners of each point begin in a list of all corners by points.
 struct CornersOfPoints {
     std::vector<std::uint64_t> first;
     std::vector<std::uint32_t> corners;
@@ -76,11 +76,16 @@ struct CornersOfPoints {
 /// A point is divided where its triangles meet at an edge. Both sides of a triangle are lit, so it
 /// does not matter in which order it has its corners.
 void add_normals(TriangleMesh& mesh) {
-    constexpr float kSmooth = 0.8660254f;            // cosine of 30 degrees
+    constexpr float kSmooth = 0.8660254f; // cosine of 30 degrees
+    double span = 0;                      // so that what is multiplied fits floats
+    for (const glm::vec3& point : mesh.points)
+        span = std::max({span, std::abs(double{point.x}), std::abs(double{point.y}),
+                         std::abs(double{point.z})});
+    const double scale = span > 0 ? 1 / span : 1.0;
     std::vector<glm::vec3> across(mesh.triangles()); // as long as the triangle is large
     for (std::size_t i = 0; i < across.size(); ++i) {
         const auto at = [&](std::size_t k) {
-            return glm::dvec3(mesh.points[mesh.corners[3 * i + k]]);
+            return scale * glm::dvec3(mesh.points[mesh.corners[3 * i + k]]);
         };
         across[i] = glm::vec3(glm::cross(at(1) - at(0), at(2) - at(0)));
     }
@@ -148,7 +153,7 @@ void take_origin(std::string_view comment, bool in_floats, glm::dvec3& origin) {
             return;
         if (in_floats)
             stated[axis] = double{single};
-        if (!std::isfinite(stated[axis]))
+        if (!(std::abs(stated[axis]) <= kMostCoordinate))
             return;
         comment.remove_prefix(std::min(word.size() + 1, comment.size()));
     }

@@ -29,7 +29,7 @@ constexpr std::array<std::size_t, 8> kPlyBytes{1, 1, 2, 2, 4, 4, 4, 8};
 struct PlyProperty {
     std::string name;
     PlyType type{};
-    std::optional<PlyType> count{}; ///< of a list
+    std::optional<PlyType> count{}; ///< type of the count of a list
 };
 struct PlyElement {
     std::string name;

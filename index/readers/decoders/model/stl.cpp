@@ -41,7 +41,7 @@ StatedModel stl_in_binary(std::span<const std::byte> bytes, const std::string& n
 StatedModel stl_in_text(std::span<const std::byte> bytes, const std::string& name) {
     StatedModel model;
     ModelText text(bytes, name);
-    std::size_t corners = 0; // of this triangle
+    std::size_t corners = 0; // corners of this triangle so far
     bool in_facet = false, in_solid = false;
     while (text.next_line()) {
         const std::string word = lower_case(text.word());

@@ -125,7 +125,7 @@ TEST(ReaderMessages, OfAKindThatIsNoneAreRefused) {
         reply_from(ninth);
         FAIL();
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("kind 9, expected 0 to 6"));
+        EXPECT_THAT(error.what(), HasSubstr("kind 9, expected 0 to 7"));
     }
 }
 

@@ -23,14 +23,6 @@ double squared(const glm::dvec3& v) {
     return glm::dot(v, v);
 }
 
-double squared_to_segment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
-    const glm::dvec3 along = b - a;
-    const double length = squared(along);
-    const double share =
-        length > 0 ? std::clamp(glm::dot(point - a, along) / length, 0.0, 1.0) : 0.0;
-    return squared(point - (a + share * along));
-}
-
 double squared_to_box(const glm::dvec3& point, const glm::dvec3& low, const glm::dvec3& high) {
     return squared(glm::max(glm::max(low - point, point - high), glm::dvec3(0.0)));
 }
@@ -125,20 +117,6 @@ void measure(const CutPiece& whole, const NearestTriangle& other, const Distance
 }
 
 } // namespace
-
-double squared_distance(const glm::dvec3& point, const std::array<glm::dvec3, 3>& triangle) {
-    const auto& [a, b, c] = triangle;
-    const glm::dvec3 ab = b - a, ac = c - a, normal = glm::cross(ab, ac), to = point - a;
-    const double area = squared(normal); // area of the parallelogram, squared
-    if (area > 0) {
-        const double second = glm::dot(glm::cross(to, ac), normal) / area;
-        const double third = glm::dot(glm::cross(ab, to), normal) / area;
-        if (second >= 0 && third >= 0 && second + third <= 1)
-            return squared(to - second * ab - third * ac);
-    }
-    return std::min({squared_to_segment(point, a, b), squared_to_segment(point, b, c),
-                     squared_to_segment(point, c, a)});
-}
 
 NearestTriangle::NearestTriangle(const PlainMesh& mesh) : mesh_(mesh) {
     order_.resize(mesh.triangles.size());

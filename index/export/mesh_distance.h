@@ -1,6 +1,8 @@
 // How far two meshes lie from each other, between bounds that are computed, not estimated.
 #pragma once
 
+#include "index/surface/triangle_distance.h"
+
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -23,9 +25,6 @@ struct PlainMesh {
         return {points[a], points[b], points[c]};
     }
 };
-
-/// Square of the distance from a point to a triangle, which may have no area.
-double squared_distance(const glm::dvec3& point, const std::array<glm::dvec3, 3>& triangle);
 
 /// Finds the triangle of a mesh that is nearest to a point, in a tree of boxes.
 class NearestTriangle {

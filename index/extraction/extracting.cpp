@@ -4,13 +4,16 @@
 #include "index/detail/detail_search.h"
 #include "index/error.h"
 #include "index/extraction/extraction_at_hand.h"
+#include "index/extraction/kept_cells.h"
 #include "index/extraction/surface_colors.h"
+#include "index/measure/mesh_pieces.h"
 #include "index/surface/mesh_colors.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 
 namespace isochron::index {
 namespace {
@@ -28,7 +31,8 @@ class Extracting {
                   file_->stats().high),
           gatherer_(file_->info().grid, values_), blended_values_(blended_values(*file_)),
           blended_gatherer_(file_->info().grid, blended_values_), layers_(file_),
-          colors_(file_, method), details_(file_), at_hand_(file_, layers_, shading_, !method) {}
+          colors_(file_, method), details_(file_), complete_(is_complete(*file_)),
+          at_hand_(file_, layers_, shading_, !method) {}
 
     ExtractionPtr operator()(const SurfacesQuery& query, const std::stop_token& stop) {
         const std::size_t count = query.isovalues.size();
@@ -38,8 +42,10 @@ class Extracting {
         result->query = query;
         result->number = ++last_number;
         try {
-            ExtractionPtr made =
-                make(result, step_of_query(*file_, query.instant, query.isovalues), stop);
+            const StepView step = step_of_query(*file_, query.instant, query.isovalues);
+            if (!query.pieces.keeps_all())
+                return make_of_pieces(result, step, stop);
+            ExtractionPtr made = make(result, step, stop);
             if (made)
                 at_hand_.set(made);
             return made;
@@ -100,13 +106,105 @@ class Extracting {
                 if (const auto made = make_of_levels(step, result, stop))
                     return *made;
         }
-        if (!search(near, *result, stop))
+        if (!search(near, *result, mesh_room(query), stop))
             return nullptr;
         result->volume_cells = result->cells();
         if (may_have_too_many && !counts_first && result->cells() > query.detail.most_cells)
             if (const auto made = make_of_levels(step, result, stop))
                 return *made;
-        return fill(keeps ? at_hand_.step() : near, *result, stop) ? result : nullptr;
+        return fill(keeps ? at_hand_.step() : near, *result, at_hand_.colors(), stop) ? result
+                                                                                      : nullptr;
+    }
+
+    /// Pieces are told apart on the whole surfaces of the volume itself, which are at hand for the
+    /// next extraction. What is kept is the answer; of coarser levels, where it has too many cells, what
+    /// stands for it. @return null when stopped
+    ExtractionPtr make_of_pieces(const std::shared_ptr<Extraction>& result, const StepView& step,
+                                 const std::stop_token& stop) {
+        constexpr std::uint64_t kMostCells = std::uint64_t{1} << 23; // some 100 bytes each
+        constexpr std::uint64_t kAnyRoom = std::numeric_limits<std::uint64_t>::max();
+        const SurfacesQuery& query = result->query;
+        auto whole = std::make_shared<Extraction>();
+        whole->query = query;
+        whole->query.pieces = {};
+        whole->query.detail = {};
+        whole->number = ++last_number;
+        at_hand_.begin(whole->query);
+        const bool keeps = keeps_any(query);
+        if (file_->info().grid.cell_count() * query.isovalues.size() > kMostCells) {
+            auto cells = step.by_chunks() ? details_.count(query, stop) : std::nullopt;
+            if (!cells && !stop.stop_requested())
+                cells = count(step, query, stop);
+            if (!cells)
+                return nullptr;
+            if (*cells > kMostCells) {
+                result->pieces.too_many_cells = true;
+                return make(result, step, stop);
+            }
+        }
+        const StepView& near = at_hand_.of_same_step() ? at_hand_.step() : step;
+        if (!search(near, *whole, kAnyRoom, stop))
+            return nullptr;
+        const std::vector<KeptPieces> kept = keep_pieces(*whole, *result);
+        if (stop.stop_requested())
+            return nullptr;
+        const std::uint64_t most = query.detail.most_cells;
+        const std::uint64_t cells = result->cells();
+        if (most > 0 && cells > most) {
+            result->volume_cells = whole->cells();
+            const auto made = make_of_levels(step, result, stop);
+            if (made && !*made)
+                return nullptr;
+            result->volume_cells = cells;
+            if (made) {
+                keep_levels(file_->info().grid, whole->surfaces, kept, *result);
+                at_hand_.set(whole);
+                return result;
+            }
+        }
+        result->volume_cells = cells;
+        if (!fill(keeps ? at_hand_.step() : near, *result, {}, stop))
+            return nullptr;
+        whole->blocks = result->blocks;
+        whole->levels = result->levels;
+        whole->surroundings = result->surroundings;
+        at_hand_.set(whole);
+        return result;
+    }
+
+    /// Fills in the cells of kept pieces. @param whole with meshes of all surfaces
+    std::vector<KeptPieces> keep_pieces(const Extraction& whole, Extraction& result) const {
+        std::vector<KeptPieces> all;
+        std::uint64_t room = mesh_room(result.query);
+        for (std::size_t i = 0; i < whole.surfaces.size(); ++i) {
+            const CellSet& from = whole.surfaces[i];
+            KeptPieces& kept = all.emplace_back();
+            if (from.mesh)
+                kept =
+                    kept_pieces(*from.mesh, file_->info().grid, complete_, result.query.pieces, i);
+            result.pieces.all += kept.all;
+            result.pieces.kept += kept.kept;
+            CellSet& to = result.surfaces.emplace_back(cells_of_kept(from, kept));
+            if (to.ids.empty() || least_mesh_bytes(to.ids.size()) > room)
+                continue;
+            CellMeshPtr mesh = from.mesh;
+            if (!kept.cells.empty()) {
+                auto part = std::make_shared<CellMesh>(*mesh);
+                keep(*part, kept);
+                mesh = std::move(part);
+            }
+            if (const std::uint64_t bytes = bytes_of(*mesh); bytes <= room) {
+                room -= bytes;
+                to.mesh = std::move(mesh);
+            }
+        }
+        drop_unless_meshed(result);
+        return all;
+    }
+
+    /// Without planes of cells, nothing draws meshes.
+    std::uint64_t mesh_room(const SurfacesQuery& query) const {
+        return shading_ == Shading::none ? 0 : query.mesh_room;
     }
 
     bool keeps_any(const SurfacesQuery& query) const {
@@ -165,13 +263,13 @@ class Extracting {
         return cells;
     }
 
-    /// Finds the cells of the volume itself. @return false when stopped
-    bool search(const StepView& step, Extraction& found, const std::stop_token& stop) {
+    /// Finds the cells of the volume itself. @param room for their meshes @return false when stopped
+    bool search(const StepView& step, Extraction& found, std::uint64_t room,
+                const std::stop_token& stop) {
         const SurfacesQuery& query = found.query;
         found.surfaces.clear();
         found.change = {at_hand_.number_for(query),
                         std::vector<SurfaceChange>(query.isovalues.size())};
-        std::uint64_t room = query.mesh_room;
         std::optional<ColorSource> colors;
         if (query.coloring == CellColoring::value && query.colors < ColorSource::count(*file_))
             colors.emplace(*file_, query.colors);
@@ -179,7 +277,7 @@ class Extracting {
             if (searches_.size() == i)
                 searches_.push_back(search_into(file_, method_, shading_));
             CellSet& set = found.surfaces.emplace_back();
-            if (!search_surface(step, i, found, stop))
+            if (!search_surface(step, i, found, room > 0, stop))
                 return false;
             const bool keeps = at_hand_.keeps_cells(i);
             if (!add_mesh(keeps ? at_hand_.step() : step, set, room, colors,
@@ -187,18 +285,23 @@ class Extracting {
                 return false;
             room = set.mesh ? room - bytes_of(*set.mesh) : set.ids.empty() ? room : 0;
         }
-        if (!found.meshed()) // some without the others are never drawn
-            for (CellSet& surface : found.surfaces)
-                surface.mesh.reset();
+        drop_unless_meshed(found);
         return true;
     }
 
+    /// Meshes of some surfaces without the others are never drawn.
+    static void drop_unless_meshed(Extraction& found) {
+        if (!found.meshed())
+            for (CellSet& surface : found.surfaces)
+                surface.mesh.reset();
+    }
+
     /// @return false when stopped
-    bool search_surface(const StepView& step, std::size_t i, Extraction& found,
+    bool search_surface(const StepView& step, std::size_t i, Extraction& found, bool meshed,
                         const std::stop_token& stop) {
         CellSet& set = found.surfaces[i];
         if (at_hand_.keeps_cells(i))
-            return at_hand_.find(i, found.query.mesh_room > 0, stop, set, found.change.surfaces[i]);
+            return at_hand_.find(i, meshed, stop, set, found.change.surfaces[i]);
         found.change.from = 0;
         return searches_[i](step, found.query.isovalues[i], stop, set);
     }
@@ -209,7 +312,7 @@ class Extracting {
     bool add_mesh(const StepView& step, CellSet& set, std::uint64_t room,
                   const std::optional<ColorSource>& colors, const EarlierMesh& earlier,
                   const std::stop_token& stop) {
-        if (shading_ == Shading::none || set.ids.empty() || least_mesh_bytes(set.ids.size()) > room)
+        if (set.ids.empty() || least_mesh_bytes(set.ids.size()) > room)
             return true;
         const auto started = std::chrono::steady_clock::now();
         CellMesh mesh;
@@ -222,7 +325,9 @@ class Extracting {
     }
 
     /// Adds the blocks and the colors. @return false when stopped
-    bool fill(const StepView& step, Extraction& result, const std::stop_token& stop) {
+    /// @param known colors that cells may take over
+    bool fill(const StepView& step, Extraction& result, const KnownColors& known,
+              const std::stop_token& stop) {
         const auto started = std::chrono::steady_clock::now();
         BlockGatherer& gatherer = gatherer_of(step);
         const BlockLevels levels = values_of(step).levels(result.query.isovalues);
@@ -238,7 +343,7 @@ class Extracting {
         find_surroundings(step, result, stop);
         result.gather_time = std::chrono::steady_clock::now() - started;
         if (!colors_.fill(result.query, result.surfaces, step, result.colors, result.corner_colors,
-                          stop, at_hand_.colors()))
+                          stop, known))
             return false;
         if (by_first_crossing(result.query.coloring) && !result.colors.empty())
             color_meshes_by_cells(result);
@@ -324,6 +429,7 @@ class Extracting {
     LayerSearch layers_; ///< for meshes
     SurfaceColors colors_;
     DetailSearch details_;
+    bool complete_; ///< see `pieces_of`
     ExtractionAtHand at_hand_;
 };
 

@@ -24,6 +24,12 @@ struct ExtractionChange {
     std::vector<SurfaceChange> surfaces = {};
 };
 
+/// What the query's filter of pieces has left.
+struct ToldPieces {
+    std::uint64_t all = 0, kept = 0; ///< numbers, on surfaces that the filter says something of
+    bool too_many_cells = false;     ///< to tell pieces apart: all cells are there
+};
+
 /// Constant once published, but for the meshes that come later. Showing it needs nothing more of
 /// the file.
 struct Extraction {
@@ -43,7 +49,8 @@ struct Extraction {
     /// them.
     std::vector<std::uint8_t> detail;
     unsigned coarsest = 0; ///< level of its largest cells
-    /// Number of active cells of the volume itself; empty while it is not known.
+    ToldPieces pieces;
+    /// Number of active cells of the volume itself, of kept pieces; empty while it is not known.
     std::optional<std::uint64_t> volume_cells;
     std::uint64_t number = 0; ///< different for each extraction of this process
     ExtractionChange change;  ///< since an extraction that was at hand

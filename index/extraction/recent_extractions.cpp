@@ -36,7 +36,7 @@ std::uint64_t bytes_of(const Extraction& extraction) {
 
 bool same_but_for_step(const SurfacesQuery& a, const SurfacesQuery& b) {
     return a.array == b.array && a.coloring == b.coloring && a.colors == b.colors &&
-           a.detail == b.detail &&
+           a.detail == b.detail && a.pieces == b.pieces &&
            std::ranges::equal(a.isovalues, b.isovalues, {}, std::bit_cast<std::uint64_t, double>,
                               std::bit_cast<std::uint64_t, double>);
 }

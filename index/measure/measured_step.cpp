@@ -3,6 +3,7 @@
 
 #include "index/measure/cell_volume.h"
 #include "index/measure/disjoint_sets.h"
+#include "index/measure/kept_pieces.h"
 #include "index/search/index_search.h"
 #include "index/surface/mesh_cases.h"
 #include "index/surface/mesh_crop.h"
@@ -157,12 +158,16 @@ Grid grid_of(const Grid& whole, const VertexBox& box) {
 
 MeasuredStep::MeasuredStep(const IndexFile& file, const Query& query, const CellMesh& mesh,
                            const std::optional<VertexBox>& box, const std::optional<CutPlane>& clip,
-                           bool complete, const std::stop_token& stop)
+                           const PieceFilter& kept, bool complete, const std::stop_token& stop)
     : file_(file), query_(query), whole_(mesh), box_(box),
       grid_(box ? grid_of(file.info().grid, *box) : file.info().grid), complete_(complete),
-      stop_(stop) {
+      all_pieces_(kept.keeps_all()), stop_(stop) {
     if (box)
         cropped_ = cells_within(mesh, *box);
+    if (!all_pieces_) {
+        part_ = mesh_of_all();
+        keep(*part_, kept_pieces(*part_, grid_, complete_, kept, 0));
+    }
     if (clip) {
         clip_.emplace(*clip, grid_);
         cut_surface();
@@ -187,11 +192,8 @@ void MeasuredStep::cut_surface() {
     beyond.reserve(points.size());
     for (const glm::dvec3& at : points)
         beyond.push_back(clip_->beyond_physical(at));
-    std::vector<std::uint8_t> triangles;
-    triangles.reserve(mesh().cases.size());
-    for (const std::uint8_t of_cell : mesh().cases)
-        triangles.push_back(mesh_cases()[of_cell].triangles);
-    cut_ = cut(points, mesh().values, mesh().triangles, beyond, triangles, clip_->leaves_plane());
+    cut_ = cut(points, mesh().values, mesh().triangles, beyond, triangles_of_cells(mesh()),
+               clip_->leaves_plane());
 }
 
 const std::vector<glm::dvec3>& MeasuredStep::points() {
@@ -232,6 +234,10 @@ const MeshPieces& MeasuredStep::pieces() {
     return *pieces_;
 }
 
+std::vector<std::uint32_t> MeasuredStep::cells_of_pieces() {
+    return index::cells_of_pieces(clip_ ? cut_.triangles : triangles_of_cells(mesh()), pieces());
+}
+
 /// The side of the grid's first vertex; asked for where no cell is active.
 bool MeasuredStep::corner_is_above() const {
     const StepView step = step_of_query(file_, query_.instant, {&query_.isovalue, 1});
@@ -270,17 +276,17 @@ const MeasuredStep::Volumes& MeasuredStep::volumes() {
     sum.above = whole_cells(cells, [&](auto y, auto z) { return of.above(y, z); });
     sum.below = whole_cells(cells, [&](auto y, auto z) { return of.below(y, z); });
     const std::array<MeshCase, 256>& cases = mesh_cases();
-    const std::span<const std::uint32_t> corners = mesh().triangles;
+    const std::span<const std::uint32_t> corners = mesh_of_all().triangles;
     std::size_t first = 0;
-    for (const std::uint8_t of_cell : mesh().cases) {
+    for (const std::uint8_t of_cell : mesh_of_all().cases) {
         const std::size_t count = std::size_t{3} * cases[of_cell].triangles;
-        const auto at = cell_of_mesh(mesh().vertices[corners[first]], of_cell);
+        const auto at = cell_of_mesh(mesh_of_all().vertices[corners[first]], of_cell);
         const double whole = cells.whole(at), left = cells.left(at);
         const auto triangles = corners.subspan(first, count);
-        const double share = left == whole ? share_above(mesh().vertices, triangles, of_cell)
-                             : left == 0
-                                 ? 0
-                                 : share_above(mesh().vertices, triangles, of_cell, cells.cut(at));
+        const double share =
+            left == whole ? share_above(mesh_of_all().vertices, triangles, of_cell)
+            : left == 0   ? 0
+                          : share_above(mesh_of_all().vertices, triangles, of_cell, cells.cut(at));
         sum.above += share * whole;
         sum.below += left - share * whole;
         first += count;

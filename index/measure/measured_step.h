@@ -25,14 +25,22 @@ class MeasuredStep {
   public:
     /// @param mesh of all active cells @param box measures its cells alone, as a grid of their own;
     ///        none: all @param clip measures what this plane leaves; none: all
+    /// @param kept measures these pieces alone
     /// @param complete see `pieces_of` @param stop, file, mesh outlive this
     MeasuredStep(const IndexFile& file, const Query& query, const CellMesh& mesh,
                  const std::optional<VertexBox>& box, const std::optional<CutPlane>& clip,
-                 bool complete, const std::stop_token& stop);
+                 const PieceFilter& kept, bool complete, const std::stop_token& stop);
+
+    bool has_all_pieces() const { return all_pieces_; }
+    /// This step with all pieces of the surface, uncut.
+    MeasuredStep with_all_pieces() const {
+        return {file_, query_, whole_, box_, {}, {}, complete_, stop_};
+    }
+    bool is_cut() const { return clip_.has_value(); }
 
     const Grid& grid() const { return grid_; }
     /// Cells of which a part is on the surface.
-    std::uint64_t cells() const { return clip_ ? cut_.cells : mesh().cases.size(); }
+    std::uint64_t cells() const { return clip_ ? cut_.triangles.size() : mesh().cases.size(); }
     std::uint64_t vertices() const { return clip_ ? cut_.vertices : mesh().vertices.size(); }
     /// Three points for each triangle.
     std::span<const std::uint32_t> corners() const {
@@ -48,6 +56,8 @@ class MeasuredStep {
     const std::vector<glm::dvec3>& normals();
     const std::vector<double>& areas();
     const MeshPieces& pieces();
+    /// Cells that have a triangle of each piece.
+    std::vector<std::uint32_t> cells_of_pieces();
     /// Vertices that are cut away are on no side.
     const VertexSides& sides();
     /// Volumes of the cells that no surface cuts, and the parts of those that it does.
@@ -55,12 +65,14 @@ class MeasuredStep {
         double above = 0, below = 0;
     };
     const Volumes& volumes();
-    /// Connected sets of vertices above, by six neighbors.
+    /// Connected sets of vertices above, by six neighbors; like volumes and sides, with all pieces of
+    /// the surface.
     std::uint64_t bodies();
 
   private:
-    /// In the box, uncut.
-    const CellMesh& mesh() const { return box_ ? cropped_ : whole_; }
+    /// In the box, uncut: of all pieces, and of kept ones.
+    const CellMesh& mesh_of_all() const { return cropped_ ? *cropped_ : whole_; }
+    const CellMesh& mesh() const { return part_ ? *part_ : mesh_of_all(); }
     std::vector<glm::dvec3> points_of_mesh() const;
     void cut_surface();
     bool corner_is_above() const;
@@ -68,12 +80,12 @@ class MeasuredStep {
     const IndexFile& file_;
     const Query& query_;
     const CellMesh& whole_;
-    CellMesh cropped_;
+    std::optional<CellMesh> cropped_, part_; ///< in the box, and of kept pieces
     std::optional<VertexBox> box_;
     Grid grid_;
     std::optional<PlaneCut> clip_;
     CutSurface cut_; ///< what the plane leaves of the mesh
-    bool complete_;
+    bool complete_, all_pieces_;
     const std::stop_token& stop_;
     std::optional<std::vector<glm::dvec3>> points_, normals_;
     std::optional<std::vector<double>> areas_;

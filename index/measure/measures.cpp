@@ -67,36 +67,6 @@ double extreme(MeasuredStep& step, double sign) {
     return found;
 }
 
-constexpr std::array<Measure, 11> kMeasures{{
-    {"cells", MeasureUnit::none, "active cells: least < isovalue <= greatest of the 8 vertices",
-     [](MeasuredStep& step) { return static_cast<double>(step.cells()); }},
-    {"area", MeasureUnit::area, "sum of the areas of the surface's triangles", area},
-    {"volume", MeasureUnit::volume,
-     "volume where the value is at least the isovalue, over the cells without a missing vertex",
-     [](MeasuredStep& step) { return step.volumes().above; }},
-    {"volume-below", MeasureUnit::volume,
-     "volume where the value is less than the isovalue, over the same cells",
-     [](MeasuredStep& step) { return step.volumes().below; }},
-    {"pieces", MeasureUnit::none, "connected pieces of the surface: triangles joined by edges",
-     [](MeasuredStep& step) { return static_cast<double>(step.pieces().count); }},
-    {"bodies", MeasureUnit::none,
-     "connected bodies: vertices of at least the isovalue, joined to their 6 neighbors",
-     [](MeasuredStep& step) { return static_cast<double>(step.bodies()); }},
-    {"euler", MeasureUnit::none, "Euler number of the surface: vertices - edges + triangles",
-     [](MeasuredStep& step) {
-         return static_cast<double>(euler(step.vertices(), step.triangles(), border_edges(step)));
-     }},
-    {"border-edges", MeasureUnit::none,
-     "edges of the surface that one triangle has: at the grid's border or a missing value; 0: "
-     "closed",
-     [](MeasuredStep& step) { return static_cast<double>(border_edges(step)); }},
-    {"mean", MeasureUnit::value, "mean of the other array on the surface, weighted by area", mean},
-    {"least", MeasureUnit::value, "least value of the other array at the surface's vertices",
-     [](MeasuredStep& step) { return extreme(step, 1); }},
-    {"greatest", MeasureUnit::value, "greatest value of the other array at the surface's vertices",
-     [](MeasuredStep& step) { return extreme(step, -1); }},
-}};
-
 std::vector<MeasuredPiece> measured_pieces(MeasuredStep& step) {
     const MeshPieces& pieces = step.pieces();
     const std::vector<glm::dvec3>&points = step.points(), &normals = step.normals();
@@ -108,6 +78,7 @@ std::vector<MeasuredPiece> measured_pieces(MeasuredStep& step) {
         glm::dvec3 low{std::numeric_limits<double>::infinity()},
             high{-std::numeric_limits<double>::infinity()}, weighted{0.0};
         std::uint64_t vertices = 0;
+        double largest = -1; ///< area of the largest triangle
     };
     std::vector<MeasuredPiece> all(pieces.count);
     std::vector<Sums> sums(pieces.count);
@@ -126,13 +97,20 @@ std::vector<MeasuredPiece> measured_pieces(MeasuredStep& step) {
             sum.vertices += !counted[corner];
             counted[corner] = true;
         }
+        if (step.areas()[i] > sum.largest) {
+            sum.largest = step.areas()[i];
+            for (int axis = 0; axis < 3; ++axis)
+                piece.place[static_cast<std::size_t>(axis)] = origin[axis] + middle[axis];
+        }
         ++piece.triangles;
         piece.area += step.areas()[i];
         piece.volume += outwards * glm::dot(normals[i], points[corners[3 * i]]) / 3;
         sum.weighted += step.areas()[i] * middle;
     }
+    const std::vector<std::uint32_t> cells = step.cells_of_pieces();
     for (std::size_t i = 0; i < all.size(); ++i) {
         MeasuredPiece& piece = all[i];
+        piece.cells = cells[i];
         const Sums& sum = sums[i];
         piece.closed = pieces.border_edges[i] == 0;
         if (!piece.closed)
@@ -151,12 +129,61 @@ std::vector<MeasuredPiece> measured_pieces(MeasuredStep& step) {
     return all;
 }
 
-/// Whether all values of all steps are finite numbers.
-bool is_complete(const IndexFile& file) {
-    const std::vector<std::uint64_t>& bins = file.stats().counts.bins;
-    return std::accumulate(bins.begin(), bins.end(), std::uint64_t{0}) ==
-           file.info().grid.vertex_count() * file.info().steps();
+/// What the pieces that are left out enclose; NaN unless all of them are closed.
+double left_out(MeasuredStep& step) {
+    if (step.has_all_pieces())
+        return 0;
+    struct Closed {
+        double volume = 0;
+        std::size_t others = 0;
+    };
+    const auto closed = [](MeasuredStep& of) {
+        Closed sum;
+        for (const MeasuredPiece& piece : measured_pieces(of))
+            if (piece.closed)
+                sum.volume += piece.volume;
+            else
+                ++sum.others;
+        return sum;
+    };
+    if (step.is_cut())
+        return kUndefined;
+    MeasuredStep whole = step.with_all_pieces();
+    const Closed all = closed(whole), kept = closed(step);
+    return all.others == kept.others ? all.volume - kept.volume : kUndefined;
 }
+
+constexpr std::array<Measure, 11> kMeasures{{
+    {"cells", MeasureUnit::none, "active cells: least < isovalue <= greatest of the 8 vertices",
+     [](MeasuredStep& step) { return static_cast<double>(step.cells()); }},
+    {"area", MeasureUnit::area, "sum of the areas of the surface's triangles", area},
+    {"volume", MeasureUnit::volume,
+     "volume where the value is at least the isovalue, over the cells without a missing vertex",
+     [](MeasuredStep& step) { return step.volumes().above - left_out(step); }},
+    {"volume-below", MeasureUnit::volume,
+     "volume where the value is less than the isovalue, over the same cells",
+     [](MeasuredStep& step) { return step.volumes().below + left_out(step); }},
+    {"pieces", MeasureUnit::none, "connected pieces of the surface: triangles joined by edges",
+     [](MeasuredStep& step) { return static_cast<double>(step.pieces().count); }},
+    {"bodies", MeasureUnit::none,
+     "connected bodies: vertices of at least the isovalue, joined to their 6 neighbors",
+     [](MeasuredStep& step) {
+         return step.has_all_pieces() ? static_cast<double>(step.bodies()) : kUndefined;
+     }},
+    {"euler", MeasureUnit::none, "Euler number of the surface: vertices - edges + triangles",
+     [](MeasuredStep& step) {
+         return static_cast<double>(euler(step.vertices(), step.triangles(), border_edges(step)));
+     }},
+    {"border-edges", MeasureUnit::none,
+     "edges of the surface that one triangle has: at the grid's border or a missing value; 0: "
+     "closed",
+     [](MeasuredStep& step) { return static_cast<double>(border_edges(step)); }},
+    {"mean", MeasureUnit::value, "mean of the other array on the surface, weighted by area", mean},
+    {"least", MeasureUnit::value, "least value of the other array at the surface's vertices",
+     [](MeasuredStep& step) { return extreme(step, 1); }},
+    {"greatest", MeasureUnit::value, "greatest value of the other array at the surface's vertices",
+     [](MeasuredStep& step) { return extreme(step, -1); }},
+}};
 
 } // namespace
 
@@ -184,7 +211,8 @@ std::optional<MeasuredSurface> SurfaceMeasures::measure(const Query& query,
     if (!mesh)
         return std::nullopt;
     try {
-        MeasuredStep step(*file_, query, *mesh, wishes.box, wishes.clip, complete_, stop);
+        MeasuredStep step(*file_, query, *mesh, wishes.box, wishes.clip, wishes.kept, complete_,
+                          stop);
         MeasuredSurface found;
         for (std::size_t i = 0; i < kMeasures.size(); ++i) {
             const bool wanted =

@@ -47,13 +47,15 @@ std::string unit_of(const Measure& measure, const SeriesInfo& info, std::string_
 
 /// A connected piece of the surface (mesh_pieces.h).
 struct MeasuredPiece {
+    std::uint64_t cells = 0; ///< with a triangle of the piece
     std::uint64_t triangles = 0;
     double area = 0;
     /// What the piece encloses: positive if that is above, negative if it is below; NaN unless it is
     /// closed.
     double volume = 0;
     std::array<double, 3> low{}, high{}, centroid{}; ///< in physical space; weighted by areas
-    std::int64_t euler = 0;                          ///< V - E + F of its mesh: 2 for a sphere
+    std::array<double, 3> place{}; ///< on the piece: the middle of its largest triangle
+    std::int64_t euler = 0;        ///< V - E + F of its mesh: 2 for a sphere
     bool closed = false;
 };
 
@@ -71,6 +73,10 @@ struct MeasureWishes {
     /// on its side, exactly; vertices that are not beyond it.
     std::optional<CutPlane> clip = std::nullopt;
     bool pieces = false;
+    /// Measures only the pieces that this keeps (with `surface` 0) of the surface in the box, before
+    /// it is cut. From the volumes is taken what the others enclose: they are NaN unless these are
+    /// closed and nothing is cut; `bodies` is NaN.
+    PieceFilter kept = {};
     /// Numbers of the measures that are wanted; the others are NaN. Empty: all.
     std::vector<std::size_t> only = {};
 };

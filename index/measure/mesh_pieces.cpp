@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace isochron::index {
@@ -61,27 +62,42 @@ MeshPieces by_vertices(const CellMesh& mesh, const Grid& grid) {
 
 } // namespace
 
+bool is_complete(const IndexFile& file) {
+    const std::vector<std::uint64_t>& bins = file.stats().counts.bins;
+    return std::accumulate(bins.begin(), bins.end(), std::uint64_t{0}) ==
+           file.info().grid.vertex_count() * file.info().steps();
+}
+
 MeshPieces pieces_of(std::span<const std::uint32_t> corners) {
     struct Side {
-        std::uint32_t low, high, triangle;
+        std::uint32_t high, triangle;
     };
-    std::vector<Side> sides;
-    sides.reserve(corners.size());
-    for (std::size_t i = 0; i < corners.size(); ++i) {
+    // Sides by the lower one of their vertices, of which few share one.
+    std::vector<std::uint32_t> ends(corners.empty() ? 1 : std::ranges::max(corners) + 2);
+    const auto low_and_high = [&](std::size_t i) {
         const std::size_t first = i / 3 * 3;
-        const auto [low, high] = std::minmax(corners[i], corners[first + (i - first + 1) % 3]);
-        sides.push_back({low, high, static_cast<std::uint32_t>(i / 3)});
+        return std::minmax(corners[i], corners[first + (i - first + 1) % 3]);
+    };
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        ++ends[low_and_high(i).first + 1];
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<Side> sides(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) { // ends become those of the sides so far
+        const auto [low, high] = low_and_high(i);
+        sides[ends[low]++] = {high, static_cast<std::uint32_t>(i / 3)};
     }
-    const auto edge = [](const Side& side) { return std::pair(side.low, side.high); };
-    std::ranges::sort(sides, {}, edge);
     const std::size_t triangles = corners.size() / 3;
     DisjointSets sets(triangles);
     std::vector<std::uint32_t> alone; ///< triangles of edges that no other has
-    for (std::size_t i = 0, end; i < sides.size(); i = end) {
-        for (end = i + 1; end < sides.size() && edge(sides[end]) == edge(sides[i]); ++end)
-            sets.join(sides[i].triangle, sides[end].triangle);
-        if (end == i + 1)
-            alone.push_back(sides[i].triangle);
+    for (std::size_t low = 0, begin = 0; low + 1 < ends.size(); begin = ends[low++]) {
+        const auto here = std::span(sides).subspan(begin, ends[low] - begin);
+        std::ranges::sort(here, {}, &Side::high);
+        for (std::size_t i = 0, end; i < here.size(); i = end) {
+            for (end = i + 1; end < here.size() && here[end].high == here[i].high; ++end)
+                sets.join(here[i].triangle, here[end].triangle);
+            if (end == i + 1)
+                alone.push_back(here[i].triangle);
+        }
     }
     MeshPieces pieces =
         numbered(triangles, triangles, [&](std::uint32_t i) { return sets.least_of(i); });

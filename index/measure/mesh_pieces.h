@@ -1,6 +1,7 @@
 // The connected pieces of a surface mesh, and its border.
 #pragma once
 
+#include "index/file/index_file.h"
 #include "index/surface/cell_mesh.h"
 #include "index/volume/grid.h"
 
@@ -18,6 +19,9 @@ struct MeshPieces {
     /// cell with a missing value.
     std::vector<std::uint32_t> border_edges;
 };
+
+/// Whether all values of all steps are finite numbers.
+bool is_complete(const IndexFile& file);
 
 /// @param complete whether the mesh is of all active cells of a step in which no value is missing:
 ///        then vertices tell what the edges would, in a tenth of the time

@@ -63,7 +63,8 @@ CutSurface cut(std::span<const glm::dvec3> points, std::span<const float> values
                std::span<const std::uint8_t> triangles, bool leaves_plane) {
     CutSurface left{.points = {points.begin(), points.end()},
                     .values = {values.begin(), values.end()},
-                    .corners = {}};
+                    .corners = {},
+                    .triangles = {}};
     CutSides sides(left, beyond);
     std::size_t next = 0;
     for (const std::uint8_t count : triangles) {
@@ -86,7 +87,8 @@ CutSurface cut(std::span<const glm::dvec3> points, std::span<const float> values
             for (std::size_t k = 2; k < size; ++k)
                 left.corners.insert(left.corners.end(), {polygon[0], polygon[k - 1], polygon[k]});
         }
-        left.cells += left.corners.size() > before;
+        if (const std::size_t added = left.corners.size() - before; added > 0)
+            left.triangles.push_back(static_cast<std::uint8_t>(added / 3));
     }
     std::vector<bool> used(left.points.size());
     for (const std::uint32_t corner : left.corners)

@@ -43,11 +43,11 @@ class PlaneCut {
 
 /// What a plane leaves of a surface.
 struct CutSurface {
-    std::vector<glm::dvec3> points;     ///< those of the surface, then those on cut sides
-    std::vector<float> values;          ///< values at the points, if the surface has some
-    std::vector<std::uint32_t> corners; ///< three for each triangle
-    std::uint64_t vertices = 0;         ///< points that triangles have
-    std::uint64_t cells = 0;            ///< cells of which a triangle is left
+    std::vector<glm::dvec3> points;      ///< those of the surface, then those on cut sides
+    std::vector<float> values;           ///< values at the points, if the surface has some
+    std::vector<std::uint32_t> corners;  ///< three for each triangle
+    std::uint64_t vertices = 0;          ///< points that triangles have
+    std::vector<std::uint8_t> triangles; ///< number of those left of each cell that has some
 };
 
 /// Cuts triangles. @param beyond of each point @param triangles number of each cell's

@@ -3,6 +3,8 @@
 
 #include "index/volume/instant.h"
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -56,6 +58,23 @@ struct DetailQuery {
     bool operator==(const DetailQuery&) const = default;
 };
 
+/// A connected piece of a surface (index/measure/mesh_pieces.h): the one whose mesh comes nearest to a
+/// place.
+struct PieceAt {
+    std::uint32_t surface = 0; ///< place of its isovalue in the query
+    glm::dvec3 place{0.0};     ///< physical space, finite
+    bool operator==(const PieceAt&) const = default;
+};
+/// Which connected pieces of the surfaces are kept; without any of it, all.
+struct PieceFilter {
+    std::vector<PieceAt> only;   ///< a surface that has some here loses its other pieces
+    std::vector<PieceAt> hidden; ///< a place more than two cells away from its surface hides nothing
+    std::uint32_t dust = 0;      ///< pieces of fewer active cells go, but those of `only` stay
+    bool operator==(const PieceFilter&) const = default;
+
+    bool keeps_all() const { return only.empty() && hidden.empty() && dust == 0; }
+};
+
 /// The isosurfaces of 1 to kMostSurfaces isovalues at one instant.
 struct SurfacesQuery {
     Instant instant = {};
@@ -67,6 +86,7 @@ struct SurfacesQuery {
     DetailQuery detail{};
     std::uint32_t array = 0;  ///< number of the index's array
     std::uint32_t colors = 0; ///< array to color by (ColorSource), by number: for coloring `value`
+    PieceFilter pieces{};
 
     Query surface(std::size_t i) const { return {instant, isovalues[i]}; }
     /// These surfaces, however they are drawn and at any level of detail.

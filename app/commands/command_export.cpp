@@ -14,6 +14,7 @@
 #include "index/export/simplified_mesh.h"
 #include "index/export/surface_export.h"
 #include "index/file/color_source.h"
+#include "index/measure/mesh_pieces.h"
 #include "index/readers/formats/length_units.h"
 #include "index/system/memory_limit.h"
 #include "index/system/new_file.h"
@@ -48,7 +49,7 @@ struct ExportArguments {
 };
 
 /// @param has what the formats have; null: all formats
-std::vector<std::string> format_names(bool index::SurfaceFormat::* has = nullptr) {
+std::vector<std::string> format_names(bool index::SurfaceFormat::*has = nullptr) {
     std::vector<std::string> names;
     for (const index::SurfaceFormat& format : index::surface_formats())
         if (!has || format.*has)
@@ -152,7 +153,7 @@ void check(const ExportArguments& arguments, const index::SurfaceFormat& format)
     struct Need {
         const char* option;
         bool given;
-        bool index::SurfaceFormat::* held;
+        bool index::SurfaceFormat::*held;
     };
     for (const Need& need :
          {Need{"--precision double", arguments.precision == "double",
@@ -166,7 +167,8 @@ void check(const ExportArguments& arguments, const index::SurfaceFormat& format)
             throw UsageError(fmt::format("{}: is for {}, not {}", need.option,
                                          fmt::join(format_names(need.held), ", "), format.name));
     for (const auto& [option, given] :
-         {std::pair("--crop", arguments.cuts.crop.has_value()),
+         {std::pair("--dust", arguments.cuts.dust > 0),
+          std::pair("--crop", arguments.cuts.crop.has_value()),
           std::pair("--clip", !arguments.cuts.clip.empty()),
           std::pair("--simplify", arguments.cuts.simplify.has_value())})
         if (given && format.of_cells)
@@ -257,7 +259,8 @@ void run_export(const ExportArguments& arguments) {
     keep_few_steps(*file);
     index::ExportRequest request = request_of(arguments, *file, *target.format);
     SimplifiedBy moved;
-    request.reshape = reshaping(arguments.cuts, file->info().grid, request.plan, moved);
+    request.reshape = reshaping(arguments.cuts, file->info().grid, index::is_complete(*file),
+                                request.plan, moved);
     const std::vector<fs::path> files =
         index::files_of_export(*target.format, target.name, request.plan, request.surfaces.size());
     std::vector<Output> outputs;
@@ -372,6 +375,10 @@ void add_export(Command& program) {
                 "away")
         .values(6)
         .type_name("X Y Z NX NY NZ");
+    command
+        .option("--dust", arguments->cuts.dust,
+                "Leave out the connected pieces of the surface that have fewer active cells")
+        .type_name("CELLS");
     command
         .option("--simplify", arguments->cuts.simplify,
                 "Write fewer triangles, so that the surface moves by at most this distance: a "

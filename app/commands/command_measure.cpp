@@ -35,7 +35,7 @@ struct MeasureArguments {
     std::filesystem::path file, out;
     std::vector<double> isovalues;
     std::string steps;
-    std::uint32_t fraction = 0;
+    std::uint32_t fraction = 0, dust = 0;
     std::vector<std::string> measures;
     std::optional<std::string> array, on_surface, crop;
     std::vector<double> clip;
@@ -76,6 +76,7 @@ void add_pieces(const index::MeasuredSurface& found, const Json& of_surface, Jso
         row["area"] = number(piece.area);
         row["volume"] = number(piece.volume);
         row["closed"] = piece.closed ? 1 : 0;
+        row["cells"] = piece.cells;
         row["euler"] = piece.euler;
         row["triangles"] = piece.triangles;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -93,6 +94,7 @@ Rows measured(const MeasureArguments& arguments,
               const std::vector<std::size_t>& numbers) {
     const index::SeriesInfo& info = file->info();
     index::MeasureWishes wishes{.pieces = arguments.pieces, .only = numbers};
+    wishes.kept.dust = arguments.dust;
     if (arguments.on_surface)
         wishes.array = array_on_surface(*file, *arguments.on_surface, "to measure on the surface");
     if (arguments.crop)
@@ -109,10 +111,10 @@ Rows measured(const MeasureArguments& arguments,
             return length.empty() ? "" : fmt::format("{}^{}", length, n);
         };
         made.columns.insert(made.columns.end(),
-                            {"piece", "area", "volume", "closed", "euler", "triangles", "x",
-                             "x-least", "x-greatest", "y", "y-least", "y-greatest", "z", "z-least",
-                             "z-greatest"});
-        made.units.insert(made.units.end(), {"", power(2), power(3), "", "", ""});
+                            {"piece", "area", "volume", "closed", "cells", "euler", "triangles",
+                             "x", "x-least", "x-greatest", "y", "y-least", "y-greatest", "z",
+                             "z-least", "z-greatest"});
+        made.units.insert(made.units.end(), {"", power(2), power(3), "", "", "", ""});
         made.units.resize(made.columns.size(), length);
     } else {
         for (const std::size_t i : numbers) {
@@ -273,6 +275,12 @@ void add_measure(Command& program) {
                 "away. The surface is cut without a cap; volumes are those of that side, exactly")
         .values(6)
         .type_name("X Y Z NX NY NZ");
+    command
+        .option(
+            "--dust", arguments->dust,
+            "Measure without the connected pieces that have fewer active cells. What these enclose "
+            "is taken from the volume")
+        .type_name("CELLS");
     command.flag(
         "--pieces", arguments->pieces,
         "Print a row for each connected piece of a surface, the largest area first, with its "

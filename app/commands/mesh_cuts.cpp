@@ -7,6 +7,7 @@
 #include "app/text.h"
 #include "index/error.h"
 #include "index/export/simplified_mesh.h"
+#include "index/measure/kept_pieces.h"
 #include "index/volume/instant_text.h"
 
 #include <fmt/format.h>
@@ -133,7 +134,7 @@ index::VertexBox box_of(const std::string& text, const index::Grid& grid) {
 }
 
 decltype(index::ExportRequest::reshape) reshaping(const MeshCuts& cuts, const index::Grid& grid,
-                                                  const index::ExportPlan& plan,
+                                                  bool complete, const index::ExportPlan& plan,
                                                   SimplifiedBy& moved) {
     std::optional<index::VertexBox> box;
     if (cuts.crop)
@@ -145,10 +146,13 @@ decltype(index::ExportRequest::reshape) reshaping(const MeshCuts& cuts, const in
             *cuts.simplify,
             distance_of(*cuts.simplify, plan.unit_factor * index::shortest_side(grid)), grid, plan,
             moved);
-    if (!box && !plane && !simplifying)
+    if (!box && !plane && !simplifying && cuts.dust == 0)
         return {};
-    return [box, plane, simplifying, &grid](index::CellMesh& mesh, const index::Query& query,
-                                            const std::function<void()>& look) {
+    const index::PieceFilter pieces{.only = {}, .hidden = {}, .dust = cuts.dust};
+    return [box, plane, simplifying, pieces, complete, &grid](index::CellMesh& mesh,
+                                                              const index::Query& query,
+                                                              const std::function<void()>& look) {
+        index::keep(mesh, index::kept_pieces(mesh, grid, complete, pieces, 0));
         if (box || plane)
             index::keep_triangles(mesh, [&](const index::MeshVertex& vertex) {
                 return (!box || is_within(vertex, *box)) &&

@@ -249,6 +249,15 @@ bool ExplorerState::resume(const interaction::Commands& kept, std::size_t held) 
     return apply(kept, held);
 }
 
+index::PieceFilter filter_of(const interaction::ShownPieces& pieces) {
+    index::PieceFilter filter{.only = {}, .hidden = {}, .dust = pieces.dust};
+    for (const interaction::PlacedPiece& each : pieces.only)
+        filter.only.push_back({each.surface, each.place});
+    for (const interaction::PlacedPiece& each : pieces.hidden)
+        filter.hidden.push_back({each.surface, each.place});
+    return filter;
+}
+
 index::SurfacesQuery ExplorerState::surfaces() const {
     index::SurfacesQuery query{shown_instant(), {}};
     switch (coloring.by) {
@@ -261,6 +270,7 @@ index::SurfacesQuery ExplorerState::surfaces() const {
     }
     for (const interaction::Isosurface& surface : isosurfaces)
         query.isovalues.push_back(surface.isovalue);
+    query.pieces = filter_of(pieces);
     return query;
 }
 

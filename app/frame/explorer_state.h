@@ -49,6 +49,9 @@ struct ExplorerState : interaction::Settings {
     bool operator==(const ExplorerState&) const = default;
 };
 
+/// The settings of pieces as a query has them.
+index::PieceFilter filter_of(const interaction::ShownPieces& pieces);
+
 /// When the first steps of a series are, and where it has gaps. @param steps 0: all
 interaction::StepTimes known_times(const index::SeriesInfo& info, std::size_t steps);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/file/index_file.h"
+#include "index/volume/query.h"
 #include "interaction/setting_values.h"
 
 #include <glm/vec3.hpp>
@@ -20,6 +21,7 @@ struct CurveSubject {
     std::shared_ptr<const index::IndexFile> array;
     double isovalue = 0;
     std::optional<interaction::ClipPlane> clip = {}; ///< cuts the surface
+    index::PieceFilter kept = {};                         ///< see index::MeasureWishes
     /// Number of the array on the surface whose mean and extremes are measured (index::ColorSource).
     std::optional<std::size_t> on_surface = {};
     /// The only number is the value here, in physical space; all but `array` is not used then.

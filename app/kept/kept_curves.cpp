@@ -44,6 +44,12 @@ std::string key_of(const CurveSubject& subject) {
     key += fmt::format("{:a}", subject.isovalue);
     if (subject.clip)
         key += ";clip " + text_of(subject.clip->point) + ' ' + text_of(subject.clip->normal);
+    for (const auto& [name, places] :
+         {std::pair("only", &subject.kept.only), std::pair("without", &subject.kept.hidden)})
+        for (const index::PieceAt& each : *places)
+            key += fmt::format(";{} {}", name, text_of(each.place));
+    if (subject.kept.dust > 0)
+        key += fmt::format(";dust {}", subject.kept.dust);
     if (subject.on_surface) {
         const index::ColorSource other(file, *subject.on_surface);
         key += fmt::format(";on {}", other.array().array);

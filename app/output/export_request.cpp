@@ -6,6 +6,7 @@
 #include "app/text.h"
 #include "app/version.h"
 #include "index/file/color_source.h"
+#include "index/measure/kept_pieces.h"
 #include "index/readers/formats/length_units.h"
 #include "index/surface/mesh_crop.h"
 #include "interaction/step_track.h"
@@ -97,14 +98,23 @@ index::ExportRequest shown_request(const ExplorerState& state,
                               return color_at(colors, share_on(scale, static_cast<double>(value)));
                           }};
     }
-    const auto cuts = interaction::cutting_planes(state, data_frame(info));
-    if (!cuts.empty() && state.pictures.surfaces.clipped && !format.of_cells)
-        request.reshape = [cuts, grid = info.grid](index::CellMesh& mesh, const index::Query&,
-                                                   const auto&) {
-            index::keep_triangles(mesh, [&](const index::MeshVertex& vertex) {
-                return std::ranges::all_of(
-                    cuts, [&](const auto& plane) { return is_left(vertex, grid, plane); });
-            });
+    auto cuts = interaction::cutting_planes(state, data_frame(info));
+    if (!state.pictures.surfaces.clipped)
+        cuts.clear();
+    if ((!cuts.empty() || !state.pieces.all()) && !format.of_cells)
+        request.reshape = [cuts, grid = info.grid, surfaces = state.isosurfaces,
+                           pieces = filter_of(state.pieces), complete = index::is_complete(array)](
+                              index::CellMesh& mesh, const index::Query& query, const auto&) {
+            const auto surface =
+                std::ranges::find(surfaces, query.isovalue, &interaction::Isosurface::isovalue);
+            index::keep(mesh,
+                        index::kept_pieces(mesh, grid, complete, pieces,
+                                           static_cast<std::size_t>(surface - surfaces.begin())));
+            if (!cuts.empty())
+                index::keep_triangles(mesh, [&](const index::MeshVertex& vertex) {
+                    return std::ranges::all_of(
+                        cuts, [&](const auto& plane) { return is_left(vertex, grid, plane); });
+                });
         };
     return request;
 }

@@ -215,7 +215,7 @@ CurveMaker::Measure measured_in_index() {
                                    .value_or(std::numeric_limits<double>::quiet_NaN())};
         if (!of->measures)
             of->measures.emplace(of->own);
-        index::MeasureWishes wishes{.array = subject.on_surface};
+        index::MeasureWishes wishes{.array = subject.on_surface, .kept = subject.kept};
         if (subject.clip)
             wishes.clip = index::CutPlane{subject.clip->point, subject.clip->normal};
         auto found = of->measures->measure({index::Instant(step), subject.isovalue}, wishes, stop);

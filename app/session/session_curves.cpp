@@ -5,6 +5,7 @@
 #include "app/text.h"
 #include "index/error.h"
 #include "index/file/color_source.h"
+#include "index/measure/kept_pieces.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
@@ -83,6 +84,8 @@ void SessionCurves::update(const Frame& frame, const ShownArrays& arrays,
             subject.on_surface = color_array(state, *arrays.file());
         for (std::size_t i = 0; i < state.isosurfaces.size(); ++i) {
             subject.isovalue = state.isosurfaces[i].isovalue;
+            subject.kept =
+                index::of_surface(filter_of(state.pieces), static_cast<std::uint32_t>(i));
             if (state.isosurfaces[i].opacity > 0)
                 of_surface_[i] = number_of(subject, wanted.subjects);
         }

@@ -64,6 +64,8 @@ std::optional<EmptyBecause> reason(const PictureFacts& facts) {
         return constant;
     if (std::ranges::none_of(facts.settings.isosurfaces, is_visible))
         return hidden;
+    if (visible_cells(facts) == 0 && facts.pieces_hidden)
+        return pieces_hidden;
     if (visible_cells(facts) == 0)
         return why_no_cells(facts, facts.settings.isosurfaces[spoken_of(facts.settings)].isovalue);
     switch (facts.sight) {
@@ -157,8 +159,9 @@ std::string nothing_to_show(const std::string& array, bool has_values, double va
 
 const char* short_words(EmptyBecause why) {
     constexpr std::array<const char*, kEmptyBecause> kWords{
-        "no values",  "no surface", "hidden",      "no values",   "no surface",  "no surface",
-        "no surface", "cut away",   "out of view", "out of view", "out of view", "out of view"};
+        "no values",   "no surface",  "hidden",     "hidden",   "no values",
+        "no surface",  "no surface",  "no surface", "cut away", "out of view",
+        "out of view", "out of view", "out of view"};
     return kWords[static_cast<std::size_t>(why)];
 }
 
@@ -191,6 +194,13 @@ std::optional<EmptyPicture> why_empty(const PictureFacts& facts) {
                              : "The surface is hidden: its opacity is 0 %.";
         offer(empty, "Show it", with_opacity(facts.settings));
         break;
+    case pieces_hidden: {
+        empty.sentence = "All pieces of the surface are hidden.";
+        Commands commands;
+        commands.pieces = interaction::ShownPieces{};
+        offer(empty, "Show all pieces", std::move(commands));
+        break;
+    }
     case no_values_in_step:
         empty.sentence = fmt::format("{} has no values in step {}.", facts.array, step);
         offer_other_step(empty, facts);

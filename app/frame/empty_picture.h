@@ -17,6 +17,7 @@ enum class EmptyBecause : std::uint8_t {
     no_values,         ///< the array has none at any step
     constant,          ///< the array has one value everywhere, at all steps
     hidden,            ///< the opacity of every surface is 0
+    pieces_hidden,     ///< all pieces of the surfaces are hidden
     no_values_in_step, ///< all values of the step are missing
     constant_in_step,  ///< the step has one value everywhere
     outside,           ///< the isovalue is outside the range of the values
@@ -27,7 +28,7 @@ enum class EmptyBecause : std::uint8_t {
     surface_aside,     ///< the data are in view, their surfaces are not
     too_small          ///< the data take hardly a pixel
 };
-inline constexpr std::size_t kEmptyBecause = 12;
+inline constexpr std::size_t kEmptyBecause = 13;
 
 /// How the data lie in the view of the eyes.
 enum class Sight : std::uint8_t { in_view, behind, out_of_view, surface_aside, too_small };
@@ -38,7 +39,8 @@ struct PictureFacts {
     std::string array, unit;          ///< name of the array, unit of its values
     double low = 0, high = 0;         ///< range of its values at all steps
     bool has_values = true;           ///< at any step
-    std::vector<std::uint64_t> cells; ///< active cells of each surface
+    std::vector<std::uint64_t> cells; ///< active cells of each surface, of pieces that are shown
+    bool pieces_hidden = false;       ///< there are pieces, and none is shown
     const StepSurvey* step = nullptr; ///< null: not known
     bool cut_away = false;            ///< the clip plane leaves nothing of what is visible
     Sight sight = Sight::in_view;

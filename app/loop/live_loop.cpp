@@ -4,6 +4,8 @@
 #include "app/end_in_time.h"
 #include "app/frame/pacer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <iterator>
@@ -37,8 +39,10 @@ void give_to_desktop(Session& session, bool asks, const std::function<std::strin
         words = link();
     if (!words.empty())
         session.outputs().windows().first().set_clipboard(words);
+    const auto lines = std::ranges::count(words, '\n');
     if (asks || !words.empty())
         session.show_messages({words.empty() ? "nothing to copy: point at a surface or mark a place"
+                               : lines > 2   ? fmt::format("copied: {} lines", lines)
                                              : "copied: " + words});
 }
 

@@ -5,7 +5,9 @@
 #include "app/frame/empty_picture.h"
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
+#include "app/frame/piece_list.h"
 #include "app/frame/step_curve.h"
+#include "index/extraction/extraction.h"
 #include "index/file/read_use.h"
 #include "interaction/control_context.h"
 #include "interaction/input/actions.h"
@@ -96,6 +98,16 @@ struct PanelCurves {
     std::function<void()> save{};         ///< writes them as a table; empty: that is not offered
 };
 
+/// The connected pieces of the surfaces.
+struct PanelPieces {
+    index::ToldPieces told{}; ///< those of the cells that are drawn
+    bool come = false;        ///< other cells are asked for than are drawn
+    PieceListPtr list{};      ///< the last one that was made; null: none yet
+    std::string failure{};    ///< why it could not be made
+    /// To be called in each frame that shows the list; empty: there is none.
+    std::function<void(const PieceOrder&)> want{};
+};
+
 /// A session on the same data that the user can go on with.
 struct OfferedSession {
     std::string words; ///< its name, when it was saved, and whether it is dropped next
@@ -136,6 +148,7 @@ struct PanelModel {
     PanelColors colors{};
     PanelWork work{};
     PanelCurves curves{};
+    PanelPieces pieces{};
     PanelNotes notes{};
     bool recording = false;
     MovieState movies{};
@@ -156,6 +169,7 @@ struct PanelPages {
     bool offers_arrays = false; ///< the files have arrays that cannot be shown with these
     /// Opened in this frame.
     bool files = false, help = false, search = false, arrays = false, messages = false;
+    std::string text{};                   ///< for the clipboard
     std::optional<MovieWish> movie{};     ///< movie that the user asked for in this frame
     std::optional<std::size_t> session{}; ///< session that they go on with
 };

@@ -6,6 +6,7 @@
 #include "app/frame/history.h"
 #include "app/panel/parts/color_section.h"
 #include "app/panel/parts/curve_drawer.h"
+#include "app/panel/parts/piece_lines.h"
 #include "app/panel/parts/sections.h"
 #include "app/panel/parts/surfaces_section.h"
 #include "app/panel/parts/time_track.h"
@@ -75,6 +76,16 @@ constexpr OtherNames kOtherNames[] = {
     {"surface_color", "solid color, diffuse color, paint, recolor, tint, rgb, uniform color, "
                       "material color, color picker"},
     {"next_surface", "select surface, active surface, other surface"},
+    {"dust",
+     "remove small pieces, hide small disconnected pieces, specks, noise, islands, blobs, "
+     "small blobs, minimum size, size filter, particles, despeckle, remove islands, debris"},
+    {"pieces", "list of pieces, components, connected regions, label, labels, particle analysis, "
+               "largest piece, biggest component, table of objects"},
+    {"only_piece",
+     "isolate, extract piece, keep only, largest region, single component, show alone, "
+     "extract connected region, solo"},
+    {"hide_piece", "delete piece, remove piece, remove blob, erase component"},
+    {"all_pieces", "unhide pieces, bring back pieces, all components"},
     {"histogram", "distribution, statistics, value distribution, mean, average, percentiles, "
                   "threshold from histogram"},
     // Color.
@@ -515,6 +526,33 @@ void add_surfaces(Lines& lines) {
         lines.add({.name = "remove_surface",
                    .words = "remove the surface",
                    .commands = without_surface(model, model.asked.picked)});
+    lines
+        .control("dust", "dust: hide pieces of fewer cells",
+                 model.asked.pieces.dust == 0
+                     ? "none"
+                     : fmt::format("fewer than {} cells", model.asked.pieces.dust),
+                 kSurfaces)
+        .with_number = [&model](double number) {
+        NumberEffect effect{{}, with_dust(model.asked, number)};
+        const std::uint32_t dust = effect.commands.pieces->dust;
+        effect.words = dust == 0 ? "none" : fmt::format("fewer than {} cells", dust);
+        return effect;
+    };
+    lines.control("pieces", "pieces of the surface: list", words_for_pieces(model), kSurfaces);
+    if (const auto piece = piece_at_mark(model.asked)) {
+        lines.add({.name = "only_piece",
+                   .words = "show only the piece at the mark",
+                   .commands = only_piece(model.asked, *piece)});
+        if (const auto hidden = hidden_piece(model.asked, *piece))
+            lines.add(
+                {.name = "hide_piece", .words = "hide the piece at the mark", .commands = *hidden});
+    }
+    if (!model.asked.pieces.all())
+        lines
+            .add({.name = "all_pieces",
+                  .words = "show all pieces of the surfaces",
+                  .value = words_for_pieces(model)})
+            .commands.pieces = interaction::ShownPieces{};
     lines.control("histogram", "histogram of the values",
                   range_text(model.stats.low, model.stats.high, unit), kSurfaces);
 }

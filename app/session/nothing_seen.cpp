@@ -70,6 +70,7 @@ void NothingSeen::update(const Frame& frame, const Seen& seen) {
                        .high = array.stats().high,
                        .has_values = has_values(array.stats()),
                        .cells = cells_of(*seen.cells),
+                       .pieces_hidden = seen.cells->pieces.all > 0 && seen.cells->pieces.kept == 0,
                        .step = surveyor_.survey(),
                        .cut_away = false,
                        .sight = Sight::in_view,

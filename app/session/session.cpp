@@ -169,6 +169,7 @@ PanelModel Session::panel_model(const FrameReport& report) {
                      .searching = supply_.extractor().busy(),
                      .survey = nothing_.survey()},
             .curves = curves_.in_panel(state_),
+            .pieces = pieces_.in_panel(report, scene_.cells().shown()),
             .notes = {.failure = failure(), .empty = nothing_.why()},
             .controls = controls,
             .at_hand = kinds_at_hand(!config_.devices.empty() || outputs_.headset(), note_.input),
@@ -400,6 +401,7 @@ void Session::set_wake(const std::function<void()>& wake) {
     picker_.set_wake(wake);
     nothing_.set_wake(wake);
     curves_.set_wake(wake);
+    pieces_.set_wake(wake);
     outputs_.pictures().set_wake(wake);
     if (preparation_)
         preparation_->set_wake(wake);
@@ -454,6 +456,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     show_messages(supply_.take_messages());
     show_messages(slices_.take_messages());
     curves_.update(frame, arrays_, supply_.extractor());
+    pieces_.update(frame, arrays_);
     panel_.lay_out_room(state_, facts, report.time);
     Picture now = pictures_.make(frame, seen(rest, heads, report));
     choice_.choose(frame, now);

@@ -27,6 +27,7 @@
 #include "app/session/nothing_seen.h"
 #include "app/session/picker.h"
 #include "app/session/picture_maker.h"
+#include "app/session/piece_lister.h"
 #include "app/session/preparation.h"
 #include "app/session/session_curves.h"
 #include "app/session/session_panel.h"
@@ -231,6 +232,7 @@ class Session {
     SettledSamples samples_;
     NothingSeen nothing_;
     SessionCurves curves_;
+    PieceLister pieces_;
     std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
     FramePlan plan_;               ///< plan of the last frame
     std::optional<Picture> drawn_; ///< last picture

@@ -82,6 +82,7 @@ bool ShownArrays::turn(const ExplorerState& before, const ExplorerState& now) {
     kept.isosurfaces = before.isosurfaces;
     kept.picked = before.picked;
     kept.coloring = before.coloring;
+    kept.pieces = before.pieces;
     return true;
 }
 
@@ -110,6 +111,8 @@ interaction::Commands ShownArrays::way_to(std::size_t number, const ExplorerStat
         way.coloring = state.coloring;
         if (way.coloring->by == interaction::ColorBy::value && way.coloring->array.empty())
             way.coloring->range.reset(); // colors may stand for another array
+        if (!state.pieces.all())
+            way.pieces = interaction::ShownPieces{}; // places are on surfaces of the array before
     }
     if (state.mark.point)
         way.mark = interaction::Mark{}; // its value is of the array before

@@ -273,6 +273,8 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
         pages_.open_arrays();
     if (asked.messages)
         pages_.open_messages();
+    if (!asked.text.empty())
+        pages_.desktop_wish().text = asked.text;
     if (asked.movie)
         wanted_movie_ = asked.movie;
     pages_.go_on_with(model, asked.session);

@@ -2,6 +2,7 @@
 #include "app/panel/parts/place_menu.h"
 
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/piece_lines.h"
 #include "app/scene/mark.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/tools/clip_tool.h"
@@ -46,6 +47,16 @@ bool place_menu(const PanelModel& model, const std::optional<interaction::Pointe
     }
     if (ImGui::MenuItem("isovalue here", nullptr, false, place.has_value() && point.array.empty()))
         commands.isovalue = point.value;
+    const bool on_surface = place && !place->on_slice && point.array.empty();
+    const interaction::PlacedPiece piece{place ? static_cast<std::uint32_t>(place->surface) : 0,
+                                         point.position};
+    if (ImGui::MenuItem("show this piece alone", nullptr, false, on_surface))
+        interaction::merge(commands, only_piece(model.asked, piece));
+    const auto hidden = hidden_piece(model.asked, piece);
+    if (ImGui::MenuItem("hide this piece", nullptr, false, on_surface && hidden))
+        interaction::merge(commands, *hidden);
+    if (!model.asked.pieces.all() && ImGui::MenuItem("show all pieces"))
+        commands.pieces = interaction::ShownPieces{};
     ImGui::Separator();
     const bool all = ImGui::MenuItem("show all", "C");
     ImGui::EndPopup();

@@ -288,7 +288,7 @@ std::vector<std::string> offered_stereo(const PanelModel& model) {
 const std::array<Section, kSections>& sections() {
     static constexpr std::array<Section, kSections> kAll{
         {{"Data", Icon::data, data_section},
-         {"Surfaces", Icon::surfaces, alone<surfaces_section>},
+         {"Surfaces", Icon::surfaces, surfaces_section},
          {"Color", Icon::color, alone<color_section>},
          {"View", Icon::view, view_section}}};
     return kAll;

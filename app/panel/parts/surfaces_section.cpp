@@ -5,6 +5,7 @@
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/histogram.h"
 #include "app/panel/parts/icons.h"
+#include "app/panel/parts/piece_lines.h"
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/theme.h"
 #include "app/text.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -141,21 +143,23 @@ void line_on_isovalues(const PanelModel& model) {
                 width, color_of(Ink::dim));
 }
 
-void remove(std::uint32_t removed, std::vector<Isosurface>& surfaces, std::uint32_t picked,
+void remove(std::uint32_t removed, std::vector<Isosurface>& surfaces, const ExplorerState& state,
             Commands& commands) {
     surfaces.erase(surfaces.begin() + removed);
-    if (picked > removed || picked >= surfaces.size())
-        commands.picked = picked - 1;
+    if (state.picked > removed || state.picked >= surfaces.size())
+        commands.picked = state.picked - 1;
+    if (auto pieces = without_surface(state.pieces, removed); pieces != state.pieces)
+        commands.pieces = std::move(pieces);
 }
 
-void take(const ListChange& change, std::vector<Isosurface>& surfaces, std::uint32_t picked,
+void take(const ListChange& change, std::vector<Isosurface>& surfaces, const ExplorerState& state,
           Commands& commands) {
-    if (change.picked && *change.picked != picked)
+    if (change.picked && *change.picked != state.picked)
         commands.picked = change.picked;
     if (change.isovalue)
         commands.isovalue = change.isovalue;
     if (change.removed)
-        remove(*change.removed, surfaces, picked, commands);
+        remove(*change.removed, surfaces, state, commands);
 }
 
 } // namespace
@@ -184,18 +188,18 @@ Commands with_another(const PanelModel& model) {
 Commands without_surface(const PanelModel& model, std::uint32_t removed) {
     Commands commands;
     std::vector<Isosurface> surfaces = model.asked.isosurfaces;
-    remove(removed, surfaces, model.asked.picked, commands);
+    remove(removed, surfaces, model.asked, commands);
     commands.isosurfaces = surfaces;
     return commands;
 }
 
-void surfaces_section(const PanelModel& model, Commands& commands) {
+void surfaces_section(const PanelModel& model, PanelPages& pages, Commands& commands) {
     histogram(model, commands);
     std::vector<Isosurface> surfaces = model.asked.isosurfaces;
     ListChange change;
     for (std::uint32_t i = 0; i < surfaces.size(); ++i)
         surface_row(model, i, surfaces[i], change);
-    take(change, surfaces, model.asked.picked, commands);
+    take(change, surfaces, model.asked, commands);
     ImGui::BeginDisabled(surfaces.size() >= interaction::kMostIsosurfaces);
     const bool adds = icon_button("add", Icon::add, "add another isosurface", false, kSmallIcon);
     ImGui::EndDisabled();
@@ -206,6 +210,7 @@ void surfaces_section(const PanelModel& model, Commands& commands) {
         commands.isosurfaces = surfaces;
     if (adds)
         interaction::merge(commands, with_another(model));
+    piece_lines(model, pages, commands);
 }
 
 } // namespace isochron::app

@@ -12,7 +12,7 @@ namespace isochron::app {
 
 /// The histogram with a line for each surface, and a row for each: the user moves, colors, hides,
 /// adds and removes them.
-void surfaces_section(const PanelModel& model, interaction::Commands& commands);
+void surfaces_section(const PanelModel& model, PanelPages& pages, interaction::Commands& commands);
 
 /// Lets a new surface be seen, and the surfaces inside it. Surfaces of lower isovalues lie around
 /// surfaces of higher isovalues. So the surfaces around the new one become translucent, and the new

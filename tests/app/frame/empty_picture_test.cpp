@@ -97,6 +97,14 @@ std::vector<Kind> kinds() {
              "The surface is hidden: its opacity is 0 %.", "Show it",
              [](const Commands& c) { return c.isosurfaces && (*c.isosurfaces)[0].opacity == 1; },
              "hidden"},
+            {pieces_hidden,
+             [](OneSurface& s) {
+                 s.settings.pieces.dust = 50;
+                 s.facts.cells = {0};
+                 s.facts.pieces_hidden = true;
+             },
+             "All pieces of the surface are hidden.", "Show all pieces",
+             [](const Commands& c) { return c.pieces && c.pieces->all(); }, "hidden"},
             {no_values_in_step,
              [](OneSurface& s) {
                  s.step = StepSurvey{.whole = true, .histogram = {}, .cells = {}, .other_step = 3};

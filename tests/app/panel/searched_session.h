@@ -27,6 +27,7 @@ struct Searched {
         asked.clip.shown = true;
         asked.clip_box.shown = true;
         asked.slices.planes.emplace_back();
+        asked.pieces.dust = 20;
         asked.look.light = {30.0, 40.0};
         asked.keys.resize(2);
         asked.keys.back().time = 2;

@@ -26,7 +26,7 @@ struct ExtractionChange {
 
 /// What the query's filter of pieces has left.
 struct ToldPieces {
-    std::uint64_t all = 0, kept = 0; ///< of the surfaces that the filter has something on
+    std::uint64_t all = 0, kept = 0; ///< numbers, on surfaces that the filter says something of
     bool too_many_cells = false;     ///< to tell pieces apart: all cells are there
 };
 

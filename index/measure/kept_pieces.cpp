@@ -86,14 +86,6 @@ class NearestPiece {
 
 constexpr double kNear = 2; ///< [cells] from a hidden place to its piece
 
-/// A case for each number of triangles.
-std::array<std::uint8_t, MeshCase::kMostTriangles + 1> cases_by_triangles() {
-    std::array<std::uint8_t, MeshCase::kMostTriangles + 1> of{};
-    for (std::size_t i = 0; i < mesh_cases().size(); ++i)
-        of[mesh_cases()[i].triangles] = static_cast<std::uint8_t>(i);
-    return of;
-}
-
 } // namespace
 
 std::vector<std::uint8_t> triangles_of_cells(const CellMesh& mesh) {
@@ -173,28 +165,8 @@ KeptPieces kept_pieces(const CellMesh& mesh, const Grid& grid, bool complete,
 }
 
 void keep(CellMesh& mesh, const KeptPieces& kept) {
-    if (kept.cells.empty())
-        return;
-    const auto case_of = cases_by_triangles();
-    std::size_t cells = 0, corners = 0, triangle = 0;
-    for (std::size_t i = 0; i < mesh.cases.size(); ++i) {
-        const std::uint8_t which = mesh.cases[i];
-        std::uint8_t left = 0;
-        const std::size_t end = triangle + mesh_cases()[which].triangles;
-        for (; triangle < end; ++triangle) {
-            if (kept.triangles[triangle] == 0)
-                continue;
-            std::copy_n(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(3 * triangle), 3,
-                        mesh.triangles.begin() + static_cast<std::ptrdiff_t>(corners));
-            corners += 3;
-            ++left;
-        }
-        if (left > 0)
-            mesh.cases[cells++] = left == mesh_cases()[which].triangles ? which : case_of[left];
-    }
-    mesh.cases.resize(cells);
-    mesh.triangles.resize(corners);
-    drop_unused_vertices(mesh);
+    if (!kept.triangles.empty())
+        keep_triangles(mesh, kept.triangles);
 }
 
 } // namespace isochron::index

@@ -1,7 +1,4 @@
 // What a filter of connected pieces leaves of a surface.
-//
-//     index::KeptPieces kept = index::kept_pieces(mesh, grid, complete, query.pieces, surface);
-//     index::keep(mesh, kept);
 #pragma once
 
 #include "index/measure/mesh_pieces.h"
@@ -20,7 +17,7 @@ namespace isochron::index {
 struct KeptPieces {
     std::uint32_t all = 0,
                   kept = 0; ///< numbers of pieces; 0 if the filter has nothing on the surface
-    /// Of the mesh, 1: kept; both empty if all are.
+    /// For each cell and triangle of the mesh, 1: kept; both empty if all are.
     std::vector<std::uint8_t> cells, triangles;
 
     bool keeps(std::size_t cell) const { return cells.empty() || cells[cell] != 0; }
@@ -34,7 +31,7 @@ PieceFilter of_surface(const PieceFilter& filter, std::uint32_t surface);
 KeptPieces kept_pieces(const CellMesh& mesh, const Grid& grid, bool complete,
                        const PieceFilter& filter, std::size_t surface);
 
-/// Removes what is not kept. Cells of which a part is left get the case of as many triangles.
+/// Removes what is not kept.
 void keep(CellMesh& mesh, const KeptPieces& kept);
 
 /// The number of triangles of each cell.

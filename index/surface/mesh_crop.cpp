@@ -3,7 +3,10 @@
 
 #include "index/surface/mesh_cases.h"
 
+#include <array>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace isochron::index {
 bool is_within(const MeshVertex& vertex, const VertexBox& box) {
@@ -16,26 +19,37 @@ bool is_within(const MeshVertex& vertex, const VertexBox& box) {
 }
 
 void keep_triangles(CellMesh& mesh, const std::function<bool(const MeshVertex& corner)>& keeps) {
-    std::vector<bool> within(mesh.vertices.size());
-    for (std::size_t i = 0; i < within.size(); ++i)
-        within[i] = keeps(mesh.vertices[i]);
-    std::size_t kept = 0, kept_cells = 0, next = 0;
+    std::vector<std::uint8_t> within, kept;
+    within.reserve(mesh.vertices.size());
+    for (const MeshVertex& vertex : mesh.vertices)
+        within.push_back(keeps(vertex));
+    kept.reserve(mesh.triangles.size() / 3);
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+        kept.push_back(within[mesh.triangles[i]] & within[mesh.triangles[i + 1]] &
+                       within[mesh.triangles[i + 2]]);
+    keep_triangles(mesh, kept);
+}
+
+void keep_triangles(CellMesh& mesh, std::span<const std::uint8_t> kept) {
+    std::array<std::uint8_t, MeshCase::kMostTriangles + 1> case_of{}; // by number of triangles
+    for (std::size_t i = 0; i < mesh_cases().size(); ++i)
+        case_of[mesh_cases()[i].triangles] = static_cast<std::uint8_t>(i);
+    std::size_t corners = 0, cells = 0, next = 0;
     for (const std::uint8_t which : mesh.cases) {
-        const std::size_t before = kept;
-        for (const std::size_t end = next + 3u * mesh_cases()[which].triangles; next < end;
-             next += 3) {
-            if (!within[mesh.triangles[next]] || !within[mesh.triangles[next + 1]] ||
-                !within[mesh.triangles[next + 2]])
+        const std::uint8_t before = mesh_cases()[which].triangles;
+        std::uint8_t left = 0;
+        for (const std::size_t end = next + before; next < end; ++next) {
+            if (kept[next] == 0)
                 continue;
             for (std::size_t corner = 0; corner < 3; ++corner)
-                mesh.triangles[kept + corner] = mesh.triangles[next + corner];
-            kept += 3;
+                mesh.triangles[corners++] = mesh.triangles[3 * next + corner];
+            ++left;
         }
-        if (kept > before)
-            mesh.cases[kept_cells++] = which;
+        if (left > 0)
+            mesh.cases[cells++] = left == before ? which : case_of[left];
     }
-    mesh.triangles.resize(kept);
-    mesh.cases.resize(kept_cells);
+    mesh.triangles.resize(corners);
+    mesh.cases.resize(cells);
     drop_unused_vertices(mesh);
 }
 

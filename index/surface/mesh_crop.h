@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 
 namespace isochron::index {
 
@@ -17,9 +18,11 @@ struct VertexBox {
 
 bool is_within(const MeshVertex& vertex, const VertexBox& box);
 
-/// Removes triangles with a corner that is not to be kept, the vertices that none is left to use, and the
-/// cases of cells that have none left. What stays keeps its order.
-/// @param mesh as it was made: all triangles of its cases
+/// Removes triangles, the vertices that none is left to use, and the cases of cells that have none
+/// left; a cell with some left gets a case of as many. What stays keeps its order.
+/// @param kept for each triangle, 0: it goes
+void keep_triangles(CellMesh& mesh, std::span<const std::uint8_t> kept);
+/// Removes those with a corner that is not to be kept.
 void keep_triangles(CellMesh& mesh, const std::function<bool(const MeshVertex& corner)>& keeps);
 
 /// Removes vertices that no triangle uses.

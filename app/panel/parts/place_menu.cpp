@@ -49,7 +49,7 @@ bool place_menu(const PanelModel& model, const std::optional<interaction::Pointe
     if (ImGui::MenuItem("isovalue here", nullptr, false, place.has_value() && point.array.empty()))
         commands.isovalue = point.value;
     if (place && point.instant != model.asked.shown_instant()) {
-        const std::string words = "go to " + steps_text(point.instant);
+        const std::string words = "go to step " + step_number(point.instant);
         if (ImGui::MenuItem(words.c_str()))
             show(point.instant, commands);
     }

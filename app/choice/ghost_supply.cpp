@@ -1,6 +1,7 @@
 // Makes ghosts beside the frames, and keeps those that may serve again.
 #include "app/choice/ghost_supply.h"
 
+#include "app/scene/caption.h"
 #include "interaction/step_track.h"
 
 #include <fmt/format.h>
@@ -57,10 +58,7 @@ std::vector<index::Instant> ghost_instants(const interaction::Ghosts& ghosts, in
 std::string ghost_words(std::span<const index::Instant> instants) {
     std::vector<std::string> numbers;
     for (const index::Instant at : instants)
-        numbers.push_back(at.between()
-                              ? fmt::format("{:.2f}", 1 + static_cast<double>(at.number()) /
-                                                              index::Instant::kFractions)
-                              : fmt::format("{}", at.step + std::uint64_t{1}));
+        numbers.push_back(step_number(at));
     if (numbers.size() < 2)
         return numbers.empty() ? "" : "ghost of step " + numbers.front();
     const std::string last = numbers.back();
@@ -172,7 +170,10 @@ void GhostSupply::update(const Frame& frame, const interaction::StepGaps& gaps) 
                            kept_.front()->query.isovalues.size() != asked.isovalues.size()))
         kept_.clear();
     most_ = kMostTriangles / (ghosts.earlier + ghosts.later);
-    const index::Instant now = asked.instant.within(frame.steps);
+    // While time plays between steps, whole ones serve longer than it takes to make them.
+    const bool plays = frame.is_live() && frame.state.playback.playing;
+    const index::Instant now =
+        plays ? index::Instant(asked.instant.step) : asked.instant.within(frame.steps);
     std::vector<index::SurfacesQuery> queries;
     for (const index::Instant at :
          ghost_instants(ghosts, now, frame.state.play_range, frame.steps, gaps)) {
@@ -208,7 +209,7 @@ std::string GhostSupply::words() const {
     if (simplified)
         words += ", simplified";
     if (come_)
-        words += words.empty() ? "ghosts are being made" : "; more are being made";
+        words += words.empty() ? "ghosts are being made" : "; more come";
     return words;
 }
 

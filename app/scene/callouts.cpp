@@ -166,7 +166,7 @@ std::vector<Callout> callouts_of(const Picture& picture,
         const index::Instant at = pointed->point.instant;
         if (!pointed->on_slice &&
             std::ranges::find(picture.ghosts, at, instant_of) != picture.ghosts.end())
-            callouts.back().lines.push_back("ghost: " + steps_text(at));
+            callouts.back().lines.push_back("ghost: step " + step_number(at));
     }
     return callouts;
 }

@@ -31,6 +31,11 @@ std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesI
     return text;
 }
 
+std::string step_number(index::Instant at) {
+    const double number = 1 + static_cast<double>(at.number()) / index::Instant::kFractions;
+    return at.between() ? fmt::format("{:.2f}", number) : fmt::format("{:.0f}", number);
+}
+
 std::vector<render::ScreenQuad> caption_quads(const std::string& words,
                                               const render::TextPass& text,
                                               const glm::ivec2& picture,

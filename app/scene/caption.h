@@ -17,6 +17,9 @@ std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesI
 /// `step 2`, or of a moment between two `between steps 2 and 3`: as people count, from 1.
 std::string steps_text(index::Instant at);
 
+/// `2`, or of a moment between two steps `2.50`: as people count, from 1.
+std::string step_number(index::Instant at);
+
 /// The caption in the upper left corner, for `render::pixel_view`.
 /// @param picture its size, pixels @param share height of the words, see `text_height`
 std::vector<render::ScreenQuad>

@@ -127,7 +127,7 @@ std::vector<LegendLine> lines_of_ghosts(const Picture& picture) {
         if (seen != picture.isosurfaces.end())
             lines.push_back(
                 {ghost.colors[static_cast<std::size_t>(seen - picture.isosurfaces.begin())],
-                 fmt::format("{}, {}", steps_text(ghost.surfaces->query.instant),
+                 fmt::format("step {}, {}", step_number(ghost.surfaces->query.instant),
                              ghost.earlier ? "earlier" : "later")});
     return lines;
 }

@@ -367,15 +367,10 @@ std::vector<KeyLine> all_lines() {
             slices.alone = !slices.alone;
             p.commands.slices = slices;
         });
-    line("Ctrl + Shift + G", "ghosts, the surfaces of two earlier and two later steps: on, off");
+    line("Ctrl + Shift + G", "ghosts: surfaces of earlier and later steps on, off");
     add(ghosts, "ghosts", kNoOldBit, {{'G', kCtrlShift}}, kQuiet,
         "ghosts: surfaces of earlier and later steps", [](const Press& p) {
-            constexpr std::uint32_t kUsual = 2; // in each direction of time
-            Ghosts ghosts = p.context.settings.ghosts;
-            ghosts.earlier = ghosts.later = ghosts.shown() ? 0 : kUsual;
-            if (!(ghosts.opacity > 0))
-                ghosts.opacity = Ghosts{}.opacity;
-            p.commands.ghosts = ghosts;
+            p.commands.ghosts = ghosts_on_or_off(p.context.settings.ghosts);
         });
     line("Delete", removal_words());
     add(remove_made, "remove_made", 53, {Key::del}, kQuiet, "", remove_made_by_tool);
@@ -390,6 +385,14 @@ std::vector<KeyLine> all_lines() {
 }
 
 } // namespace
+
+Ghosts ghosts_on_or_off(Ghosts ghosts) {
+    constexpr std::uint32_t kUsual = 2;
+    ghosts.earlier = ghosts.later = ghosts.shown() ? 0 : kUsual;
+    if (!(ghosts.opacity > 0))
+        ghosts.opacity = Ghosts{}.opacity;
+    return ghosts;
+}
 
 std::span<const KeyLine> key_lines() {
     static const std::vector<KeyLine> lines = all_lines();

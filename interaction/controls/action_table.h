@@ -57,6 +57,9 @@ std::optional<Action> action_named(std::string_view name);
 /// `more_keys`. Nothing: no action had that bit.
 std::optional<Action> action_of_old_bit(int bit);
 
+/// Two ghosts in each direction of time where there are none, and else none.
+Ghosts ghosts_on_or_off(Ghosts ghosts);
+
 /// Actions that do not change the picture of the data: the motion gate ignores them.
 const ActionSet& quiet_actions();
 

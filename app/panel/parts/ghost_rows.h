@@ -5,7 +5,9 @@
 
 namespace isochron::app {
 
-/// One row, and two more while ghosts are shown; none for data of one step.
+/// On the line of a button before it: shows ghosts, or none. Nothing for data of one step.
+void ghost_button(const PanelModel& model, interaction::Commands& commands);
+/// Three rows while there are ghosts.
 void ghost_rows(const PanelModel& model, interaction::Commands& commands);
 
 } // namespace isochron::app

@@ -51,7 +51,7 @@ bool place_menu(const PanelModel& model, const std::optional<interaction::Pointe
         commands.isovalue = point.value;
     const bool of_other_step = place && point.instant != model.asked.shown_instant();
     if (of_other_step) {
-        const std::string words = "go to " + steps_text(point.instant);
+        const std::string words = "go to step " + step_number(point.instant);
         if (ImGui::MenuItem(words.c_str()))
             show(point.instant, commands);
     }

@@ -204,6 +204,7 @@ void surfaces_section(const PanelModel& model, PanelPages& pages, Commands& comm
     ImGui::BeginDisabled(surfaces.size() >= interaction::kMostIsosurfaces);
     const bool adds = icon_button("add", Icon::add, "add another isosurface", false, kSmallIcon);
     ImGui::EndDisabled();
+    ghost_button(model, commands);
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     line_on_isovalues(model);

@@ -178,6 +178,30 @@ TEST_P(SessionGhosts, NeverKeepALiveFrameWaitingNorShowAsOtherSteps) {
     EXPECT_EQ(instants(session), session.ghosts().wished());
 }
 
+/// Each frame of time that plays between steps has another instant: ghosts of whole steps serve for
+/// many of them.
+TEST_P(SessionGhosts, AreOfWholeStepsWhileTimePlaysBetweenThem) {
+    Session session(config_with(kPlenty), file_, *context_);
+    start(session);
+    Commands plays = asking({1, 1, 1});
+    plays.between = interaction::BetweenSteps::blend;
+    plays.playback.emplace().playing = true;
+    rest(session, 1, plays);
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        rest(session, 1, at_instant(Instant(i / 60, i % 60 * 1092)));
+        for (const Instant at : instants(session))
+            EXPECT_FALSE(at.between());
+        expect_true(session);
+    }
+    EXPECT_LE(session.ghosts().made(), 6u) << "each step once";
+    Commands stops;
+    stops.playback.emplace();
+    rest(session, 1, stops);
+    rest_until(session, [&](const FrameReport&) { return !session.ghosts().come(); });
+    EXPECT_EQ(instants(session), session.ghosts().wished());
+    EXPECT_THAT(instants(session), ElementsAre(Instant(3, 59 * 1092)));
+}
+
 TEST_P(SessionGhosts, AreTheSameInEveryReplay) {
     interaction::Recording recording;
     std::vector<std::vector<std::uint8_t>> seen;

@@ -3,7 +3,7 @@
 
 #include "app/config/config_problem.h"
 #include "app/config/toml_table.h"
-#include "app/explore/series_movie.h"
+#include "app/explore/story_file.h"
 #include "app/kept/session_file.h"
 #include "index/system/input_file.h"
 #include "interaction/command_fields.h"

@@ -5,7 +5,7 @@
 #include "app/command_line/step_range.h"
 #include "app/config/first_placement.h"
 #include "app/explore/explore_start.h"
-#include "app/kept/session_file.h"
+#include "app/explore/story_file.h"
 #include "app/loop/key_film.h"
 #include "app/loop/movie_maker.h"
 #include "app/loop/replay.h"
@@ -57,16 +57,6 @@ std::vector<interaction::KeyFrame> turn(const Session& session, const index::Ser
 }
 
 } // namespace
-
-std::vector<interaction::KeyFrame> keys_in(const std::string& text, const std::string& name) {
-    if (!is_session_text(text))
-        return interaction::keys_from(text, name);
-    auto keys = session_in(text, name).state.keys.value_or(std::vector<interaction::KeyFrame>());
-    if (keys.empty())
-        throw interaction::Error(
-            fmt::format("{}: a session without keys: Ctrl + M in `explore` makes them", name));
-    return interaction::keys_from(interaction::keys_text(keys), name); // in order
-}
 
 void expect_fit(const std::vector<interaction::KeyFrame>& keys, const std::string& path,
                 const Session& session, std::size_t steps) {

@@ -26,10 +26,6 @@ struct SeriesMovie {
     bool turns() const { return turn || film == "turn" || film == "both"; }
 };
 
-/// The keys of a text: a file of keys, or a session. @param name for messages
-/// @throws interaction::Error
-std::vector<interaction::KeyFrame> keys_in(const std::string& text, const std::string& name);
-
 /// @throws interaction::Error naming the file of the keys and the first key that these data cannot show
 void expect_fit(const std::vector<interaction::KeyFrame>& keys, const std::string& path,
                 const Session& session, std::size_t steps);

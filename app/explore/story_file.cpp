@@ -1,7 +1,6 @@
 // Reads the files of stories.
 #include "app/explore/story_file.h"
 
-#include "app/explore/series_movie.h"
 #include "app/kept/session_file.h"
 #include "app/loop/movie_maker.h"
 #include "app/telling.h"
@@ -45,6 +44,16 @@ bool is_plain(std::string_view name) {
 }
 
 } // namespace
+
+std::vector<interaction::KeyFrame> keys_in(const std::string& text, const std::string& name) {
+    if (!is_session_text(text))
+        return interaction::keys_from(text, name);
+    auto keys = session_in(text, name).state.keys.value_or(std::vector<interaction::KeyFrame>());
+    if (keys.empty())
+        throw interaction::Error(
+            fmt::format("{}: a session without keys: Ctrl + M in `explore` makes them", name));
+    return interaction::keys_from(interaction::keys_text(keys), name); // in order
+}
 
 StoryFile story_in(const std::string& text, const std::string& name) {
     StoryFile story;

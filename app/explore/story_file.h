@@ -10,6 +10,10 @@
 
 namespace isochron::app {
 
+/// The keys of a text: a file of keys, or a session. @param name for messages
+/// @throws interaction::Error
+std::vector<interaction::KeyFrame> keys_in(const std::string& text, const std::string& name);
+
 struct StoryFile {
     std::vector<interaction::KeyFrame> keys;
     std::string data; ///< as the file says it; empty: it names none

@@ -23,7 +23,7 @@ std::vector<Title> titles_of(const interaction::Recording& recording) {
     }
     const auto time = [&](std::size_t frame) { return frames[frame].input.time.count(); };
     for (std::size_t first = 0; first < frames.size();) {
-        std::size_t end = first + 1; // of the frames with the same words
+        std::size_t end = first + 1; // behind the last frame that has these words
         while (end < frames.size() && titles[end].words == titles[first].words)
             ++end;
         const double begun = time(first), ends = time(std::min(end, frames.size() - 1));

@@ -21,7 +21,7 @@
 
 namespace isochron::app {
 
-inline constexpr const char* kStoryEnding = ".isochron-story"; ///< of a story's file
+inline constexpr const char* kStoryEnding = ".isochron-story"; ///< ending of a story's file
 
 /// What all movies of a session have in common.
 struct MovieOrders {

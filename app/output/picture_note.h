@@ -48,7 +48,7 @@ struct PictureNote {
     bool caption = false;
     double text = 0;                  ///< height of words, see `text_height`
     std::string title{};              ///< words over the picture; empty: none
-    double opacity = 0;               ///< of these words, 0 to 1
+    double opacity = 0;               ///< opacity of these words, 0 to 1
     interaction::Commands state;      ///< sets everything that commands can set
     interaction::InputState input;    ///< devices
     interaction::InputState latched;  ///< heads for the views; without devices: those in `input`

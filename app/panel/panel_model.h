@@ -42,7 +42,7 @@ enum class MovieWish : std::uint8_t {
     turn,      ///< a movie of one turn of the data, while this moment stands
     both,      ///< a movie of one turn while all steps pass
     keys,      ///< a film of the key frames
-    titled,    ///< the same with their names and texts as titles
+    titled,    ///< a film of the key frames with their names and texts as titles
     views,     ///< a film from one saved viewpoint to the next
     figure,    ///< a figure of what is seen
     story,     ///< a file of the story that the keys tell

@@ -221,7 +221,7 @@ class Session {
     interaction::Similarity all_in_view(const Audience& audience) const;
     bool is_settled(const Frame& frame) const;
     std::optional<glm::vec2> told_at() const;
-    bool fades_to_steps() const;     ///< of a story
+    bool fades_to_steps() const;     ///< steps of a story come by a fade
     bool samples_come_later() const; ///< behind what is still to be prepared
     /// Whether slices or ghosts are still to be made.
     bool more_comes() const { return slices_.come() || models_.come() || ghosts_.come(); }

@@ -71,7 +71,7 @@ void from_json(const json& value, const Field& field, T& into) {
                                   : number(value, field.key));
 }
 void from_json(const json& value, const Field& field, std::string& into) {
-    into = text(value, field.key, std::max(field.most, kLongestText)); // of a list, `most` counts items
+    into = text(value, field.key, std::max(field.most, kLongestText)); // `most` counts items of a list
 }
 template <Named Enum>
 void from_json(const json& value, const Field& field, Enum& into) {

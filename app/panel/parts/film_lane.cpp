@@ -39,7 +39,7 @@ using interaction::Commands;
 using interaction::KeyFrame;
 
 constexpr float kFilmMark = 6.0f, kFilmHand = 8.0f; ///< panel pixels
-constexpr float kKeyList = 390.0f;                  ///< width of a key's text
+constexpr float kKeyList = 430.0f;                  ///< width of the list
 
 std::shared_ptr<FilmPreview> begun_preview(const PanelModel& model) {
     constexpr double kUsualRate = 30, kMostFrames = 20'000;
@@ -162,9 +162,9 @@ void take_draft(const PanelModel& model, FilmLane& lane, Commands& commands) {
     commands.keys = std::move(keys);
 }
 
-/// What the story says at the chosen key, and where.
+/// What the story says at the chosen key, or the first one, and where.
 void text_of_key(const PanelModel& model, FilmLane& lane, Commands& commands) {
-    const std::size_t number = *lane.chosen;
+    const std::size_t number = lane.chosen.value_or(0);
     std::vector<KeyFrame> keys = model.asked.keys;
     ImGui::TextColored(
         color_of(Ink::dim), "%s",
@@ -205,8 +205,12 @@ void text_of_key(const PanelModel& model, FilmLane& lane, Commands& commands) {
 void list_of_keys(const PanelModel& model, FilmLane& lane, Commands& commands) {
     if (!ImGui::BeginPopup("keys"))
         return take_draft(model, lane, commands);
+    constexpr float kMostRows = 8.0f;
     popup_title("Key frames");
     std::vector<KeyFrame> keys = model.asked.keys;
+    const float line = kIconButton + ImGui::GetStyle().ItemSpacing.y;
+    ImGui::BeginChild("rows",
+                      {kKeyList, line * std::min(kMostRows, static_cast<float>(keys.size()))});
     for (std::size_t i = 0; i < keys.size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
         if (ImGui::Selectable(fmt::format("{}", i + 1).c_str(), lane.chosen == i,
@@ -242,8 +246,8 @@ void list_of_keys(const PanelModel& model, FilmLane& lane, Commands& commands) {
             commands.keys = interaction::without_key(keys, i);
         ImGui::PopID();
     }
-    if (lane.chosen)
-        text_of_key(model, lane, commands);
+    ImGui::EndChild();
+    text_of_key(model, lane, commands);
     ImGui::EndPopup();
 }
 

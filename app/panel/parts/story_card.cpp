@@ -15,9 +15,10 @@ namespace {
 
 using interaction::Commands;
 
-constexpr float kCardWidth = 360.0f;
-constexpr float kOverAxes = 118.0f; ///< the axes and the scale bar stay free
-constexpr float kCardShare = 0.4f;  ///< of the picture's height that a text has at most
+constexpr float kWideCard = 360.0f,
+                kNarrowCard = 250.0f; ///< its width lies between them
+constexpr float kOverAxes = 118.0f;   ///< the axes and the scale bar stay free
+constexpr float kCardShare = 0.4f;    ///< share of the picture's height that a text has at most
 
 /// @param highest that the text may be, panel pixels
 void text_and_buttons(const PanelModel& model, float highest, Commands& commands) {
@@ -66,7 +67,9 @@ bool story_card(const PanelModel& model, const PanelBox& picture, Commands& comm
     constexpr float kEdge = 12.0f;
     const float bottom = picture.high.y - std::min(kOverAxes, 0.16f * picture.size().y);
     ImGui::SetNextWindowPos({picture.low.x + kEdge, bottom}, ImGuiCond_Always, {0.0f, 1.0f});
-    ImGui::SetNextWindowSize({std::min(kCardWidth, picture.size().x - 2 * kEdge), 0.0f});
+    ImGui::SetNextWindowSize({std::min(std::clamp(0.45f * picture.size().x, kNarrowCard, kWideCard),
+                                       picture.size().x - 2 * kEdge),
+                              0.0f});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(Ink::bar));
     ImGui::Begin("###story", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |

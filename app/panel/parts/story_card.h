@@ -12,7 +12,7 @@ namespace isochron::app {
 /// @return whether one is told
 bool story_card(const PanelModel& model, const PanelBox& picture, interaction::Commands& commands);
 
-/// The same in the current window, for panels without a picture.
+/// Lays the step's text and buttons out in the current window, for panels without a picture.
 void story_rows(const PanelModel& model, interaction::Commands& commands);
 
 } // namespace isochron::app

@@ -106,6 +106,16 @@ TEST_F(MeasureCommand, PiecesAddUpToTheSurface) {
     }
     EXPECT_NEAR(area, whole.at("area").get<double>(), 1e-9 * area);
     EXPECT_EQ(euler, whole.at("euler").get<std::int64_t>());
+    const std::int64_t dust = pieces[0].at("cells").get<std::int64_t>();
+    nlohmann::json large = nlohmann::json::array();
+    for (const auto& piece : pieces)
+        if (piece.at("cells") >= dust)
+            large.push_back(piece);
+    EXPECT_LT(large.size(), pieces.size());
+    const std::string least = std::to_string(dust);
+    EXPECT_EQ(rows_of({"--pieces", "--dust", least}), large);
+    EXPECT_EQ(rows_of({"--dust", least})[0].at("pieces"), large.size());
+    EXPECT_TRUE(rows_of({"--dust", least})[0].at("bodies").is_null());
 }
 
 TEST_F(MeasureCommand, RefusesWhatItCannotMeasure) {

@@ -1160,10 +1160,13 @@ void add_film(Lines& lines) {
     const auto& keys = model.asked.keys;
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const std::string number = fmt::format("key {}", i + 1), &name = keys[i].name;
+        Commands way = interaction::way_to_key(keys[i], model.asked, model.head);
+        if (!way.room_from_physical) // so that also one that is seen already can be chosen
+            way.room_from_physical = model.asked.room_from_physical;
         lines.add({.name = fmt::format("key={}", i + 1),
                    .words = name.empty() ? number : fmt::format("key {}", name),
                    .others = "key frame, keyframe, go to key, " + number,
-                   .commands = interaction::way_to_key(keys[i], model.asked, model.head)});
+                   .commands = std::move(way)});
         if (!keys[i].text.empty())
             lines.value(fmt::format("story={}", i + 1),
                         fmt::format("story: tell {}", interaction::name_of_key(keys, i)),

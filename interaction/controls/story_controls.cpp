@@ -90,9 +90,15 @@ void StoryControls::update(const Reading& now, const ControlContext& context, Se
     const std::uint32_t told = asked_for(now, settings, notes);
     if (told != settings.story)
         commands.story = told;
-    // Who grabs the data, or sets the view by other means, has it.
-    if (way_ &&
-        (commands.room_from_physical || !(way_->last == settings.room_from_physical) || told == 0))
+    // Who grabs the data, or sets the view by other means, has it; the rest of the step comes.
+    const bool taken =
+        commands.room_from_physical || (way_ && !(way_->last == settings.room_from_physical));
+    if (way_ && told > 0 && taken && !way_->motion) {
+        way_->leap.room_from_physical.reset();
+        merge(commands, way_->leap);
+        commands.story = told;
+    }
+    if (way_ && (taken || told == 0))
         way_.reset();
     if (told_ && *told_ != told && told > 0 && told <= settings.keys.size()) {
         commands.story = told;

@@ -157,13 +157,10 @@ std::optional<MovieWish> key_row(const PanelModel& model, interaction::Commands&
            "the same, with the names and texts of the keys at the bottom",
            film ? "no key has a name or a text: the list of keys below the picture gives them"
                 : "a film needs two keys");
+    ImGui::SameLine();
     button("save as story", MovieWish::story, interaction::story_step(keys, 0).of > 0,
            "a file of the keys beside the data: `isochron explore` opens it and tells the story",
            "no key has a text: the list of keys below the picture gives it one");
-    ImGui::SameLine();
-    button("along the viewpoints", MovieWish::views, model.asked.views.size() > 1,
-           "a movie from each saved viewpoint to the next, at one speed",
-           "a film along viewpoints needs two that are saved (B)");
     return wish;
 }
 
@@ -206,6 +203,14 @@ std::optional<MovieWish> movie_rows(const PanelModel& model, interaction::Comman
         wish = MovieWish::series;
     ImGui::EndDisabled();
     tip("a movie of these steps with this view, at the playback speed");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(model.asked.views.size() < 2);
+    if (ImGui::Button("along the viewpoints"))
+        wish = MovieWish::views;
+    ImGui::EndDisabled();
+    tip(model.asked.views.size() < 2
+            ? "a film along viewpoints needs two that are saved (B)"
+            : "a movie from each saved viewpoint to the next, at one speed");
     if (ImGui::Button("one turn"))
         wish = MovieWish::turn;
     tip("a movie of 10 s: one turn about the data's up axis, while this moment stands");

@@ -134,7 +134,7 @@ TEST_F(FilmLaneTest, AKeyGetsANameAndATextInTheListAndTheTextIsWhatTheStoryTells
                             interaction::KeyEvent{interaction::Key::enter, false, 0}});
     merge(named, frame());
     ASSERT_TRUE(named.keys);
-    EXPECT_EQ((*named.keys)[0].name, "front, late");
+    EXPECT_EQ((*named.keys)[2].name, "front, late") << "of several fields it is the last one";
     asked_.keys = *named.keys;
     asked_.mark.point.emplace();
     asked_.mark.point->position = {1, 2, 3};

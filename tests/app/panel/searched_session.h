@@ -33,6 +33,9 @@ struct Searched {
         asked.look.light = {30.0, 40.0};
         asked.keys.resize(2);
         asked.keys.back().time = 2;
+        asked.keys.back().name = "front arrives";
+        asked.keys.back().text = "It comes from the left.";
+        asked.views = {{"1", {}}, {"2", {}}};
     }
     PanelModel model() {
         PanelModel all{

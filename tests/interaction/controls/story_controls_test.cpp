@@ -182,14 +182,18 @@ TEST(Story, WhoFliesNotBringsTheStepInTheDark) {
 }
 
 TEST(Story, WhoeverMovesTheDataHasTheView) {
-    StoryDesk desk;
-    desk.settings.story = 3;
-    desk.idle(20);
-    desk.settings.room_from_physical.translation.y = 9; // undo, or a program
-    const Commands commands = desk.idle(100);
-    EXPECT_EQ(desk.volume().translation.y, 9);
-    EXPECT_FALSE(commands.room_from_physical);
-    EXPECT_EQ(desk.settings.story, 3u);
+    for (const bool fades : {false, true}) {
+        StoryDesk desk;
+        desk.context.fades = fades;
+        desk.settings.story = 3;
+        desk.idle(5);
+        desk.settings.room_from_physical.translation.y = 9; // undo, or a program
+        const Commands commands = desk.idle(100);
+        EXPECT_EQ(desk.volume().translation.y, 9);
+        EXPECT_FALSE(commands.room_from_physical);
+        EXPECT_EQ(desk.settings.story, 3u);
+        EXPECT_EQ(desk.settings.isovalue(), 30) << "what else the step shows comes";
+    }
 }
 
 TEST(Story, OfASessionThatGoesOnIsToldOnWithoutAMove) {

@@ -75,7 +75,7 @@ constexpr OtherNames kOtherNames[] = {
     {"hide_surface", "show surface, visibility, visible, eye, toggle surface, hide contour, "
                      "display surface"},
     {"opacity", "alpha, solid, opaque, density"},
-    {"transparency", "transparent, translucent, see through, semitransparent, ghost, x-ray, glass"},
+    {"transparency", "transparent, translucent, see through, semitransparent, ghosted, x-ray, glass"},
     {"surface_color", "solid color, diffuse color, paint, recolor, tint, rgb, uniform color, "
                       "material color, color picker"},
     {"ghost_count", "ghost, onion skin, onion skinning, trail, trails, motion trail, earlier and later "

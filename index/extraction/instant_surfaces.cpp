@@ -23,7 +23,8 @@ namespace {
 using Box = InstantSurfaces::Box;
 
 constexpr std::uint64_t kTrianglesOfCell = 2; ///< on average
-constexpr std::uint64_t kFinerCells = 4; ///< of a surface, for each cell of the next coarser level
+/// Cells of a surface for each cell that it has at the next coarser level.
+constexpr std::uint64_t kFinerCells = 4;
 /// How many more triangles than are wanted are made and then simplified: that is truer than a coarser
 /// level.
 constexpr std::uint64_t kMadeForOne = 16;

@@ -25,8 +25,8 @@ struct InstantSurfaces {
     std::vector<CellMeshPtr> meshes; ///< by surface, in the volume's grid; null: it has no cells
     std::uint64_t cells = 0;         ///< active cells of all surfaces, at the level of detail
     unsigned level = 0;              ///< level of detail (detail_levels.h) whose cells they are
-    std::uint32_t edge =
-        1; ///< of the clusters that became one vertex [cells of the volume]; 1: none
+    /// Side of the clusters that became one vertex each [cells of the volume]; 1: none did.
+    std::uint32_t edge = 1;
 
     /// Around triangles that follow each other in a mesh, kRun of them, in even coordinates.
     struct Box {

@@ -42,7 +42,7 @@ LazyProgram ghost_program(const Gl& gl, const index::Grid& grid, const char* way
 
 /// A coordinate of the map for each of some bands.
 std::uint16_t band_on_map(std::size_t band, std::size_t bands) {
-    constexpr std::size_t kWhole = 65534; // of mesh.vert
+    constexpr std::size_t kWhole = 65534; // as mesh.vert has it
     return static_cast<std::uint16_t>(bands > 1 ? (kWhole * band + (bands - 1) / 2) / (bands - 1)
                                                 : 0);
 }

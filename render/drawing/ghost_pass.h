@@ -60,8 +60,9 @@ class GhostPass {
     const Sorted& sorted_along(const glm::vec3& ahead, const Placement& placement);
 
     const Gl* gl_;
-    std::array<std::vector<float>, 3> places_; ///< of the grid's vertices, in even coordinates
-    LazyProgram near_, small_;                 ///< see `MeshLook`
+    /// Where the vertices of the grid lie along each axis, in even coordinates.
+    std::array<std::vector<float>, 3> places_;
+    LazyProgram near_, small_; ///< see `MeshLook`
     VertexArray vertex_array_;
     Buffer frame_, vertices_, numbers_; ///< `numbers_`: which color each vertex has
     AxisTable axes_;

@@ -24,6 +24,7 @@
 #include "index/export/surface_writer.h"
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extractor.h"
+#include "index/extraction/instant_surfaces.h"
 #include "index/extraction/slice_values.h"
 #include "index/file/index_file.h"
 #include "index/file/step_view.h"
@@ -52,6 +53,7 @@
 #include "interaction/trackers/pose_filter.h"
 #include "render/cells/cell_buffers.h"
 #include "render/drawing/cell_pass.h"
+#include "render/drawing/ghost_pass.h"
 #include "render/gl/gl.h"
 #include "render/gl/gpu_timer.h"
 #include "render/gl/render_target.h"
@@ -117,6 +119,11 @@ void cell_ray_example(const ExtractionPtr& shown, const Grid& grid, glm::dvec3 w
 
 void slice_values_example(const IndexFile& array, const glm::dvec3& at) {
 #include "index/extraction/slice_values.example"
+}
+
+void instant_surfaces_example(const std::shared_ptr<const IndexFile>& file, std::uint32_t step,
+                              double isovalue, void (*draw)(const CellMesh&)) {
+#include "index/extraction/instant_surfaces.example"
 }
 
 void extractor_example(const std::shared_ptr<const IndexFile>& file, std::uint32_t step,
@@ -225,6 +232,12 @@ void cell_buffers_example(CellBuffers& cells, const index::Extractor& extractor,
                           const View& view, const Placement& placement, Footprint footprint,
                           const CellAppearance& appearance) {
 #include "render/cells/cell_buffers.example"
+}
+
+void ghost_pass_example(GhostPass& pass, std::span<const GhostMesh> ghosts, const View& view,
+                        const Placement& placement, float opacity,
+                        const CellAppearance& appearance) {
+#include "render/drawing/ghost_pass.example"
 }
 
 void gl_example(const stereo::GlContext& context) {

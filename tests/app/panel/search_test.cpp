@@ -67,7 +67,22 @@ TEST(SearchLines, TakeNumbers) {
         {"zoom 2", "x 2", [](auto& s) { return s.room_from_physical.scale == 2; }},
         {"bands 7", "7", [](auto& s) { return s.coloring.bands == 7; }},
         {"eye separation 60", "60 mm", [](auto& s) { return s.eye_separation == 0.06f; }},
+        {"ghosts 2", "2 earlier, 2 later",
+         [](auto& s) { return s.ghosts == interaction::Ghosts{2, 2}; }},
+        {"onion skin 9", "4 earlier, 4 later",
+         [](auto& s) { return s.ghosts == interaction::Ghosts{4, 4}; }},
+        {"trail 3", "3 earlier, 3 later",
+         [](auto& s) { return s.ghosts == interaction::Ghosts{3, 3}; }},
+        {"earlier steps 4", "4 earlier, 0 later",
+         [](auto& s) { return s.ghosts == interaction::Ghosts{4, 0}; }},
+        {"later ghosts 2", "1 earlier, 2 later",
+         [](auto& s) { return s.ghosts == interaction::Ghosts{1, 2}; }},
+        {"ghost spacing 8", "every 8 steps", [](auto& s) { return s.ghosts.every == 8; }},
+        {"ghost opacity 40", "40 %", [](auto& s) { return s.ghosts.opacity == 0.4f; }},
     };
+    Searched without;
+    without.asked.ghosts = {};
+    EXPECT_EQ(first(without, "ghosts 2").commands.ghosts, (interaction::Ghosts{2, 2}));
     for (const auto& row : rows) {
         const First found = first(session, row.text);
         ExplorerState state = session.asked;

@@ -118,7 +118,7 @@ class SessionGhosts : public SessionQuality {
 INSTANTIATE_TEST_SUITE_P(, SessionGhosts, testing::Values(stereo::ContextKind::egl), context_name);
 
 TEST_P(SessionGhosts, AreMadeOnceWhileTimePlays) {
-    Session session(small_config(), file_, *context_); // of six steps
+    Session session(small_config(), file_, *context_); // six steps
     frame(session, at_instant(Instant(2)));
     EXPECT_EQ(session.ghosts().made(), 0u);
     struct Row {
@@ -245,7 +245,7 @@ TEST_P(SessionGhosts, AreSeenWhereTheSurfaceWasAndWhereItGoes) {
     };
     Commands there = at_instant(Instant(3));
     there.isovalue = 9.0;
-    there.quality = interaction::QualityMode::quality; // the same footprint in each picture
+    there.quality = interaction::QualityMode::quality; // one footprint for all pictures
     const render::Image alone = picture(there);
     const auto changed = [&](const render::Image& image, const auto& counts) {
         glm::dvec3 sum(0.0);

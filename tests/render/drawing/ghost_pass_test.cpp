@@ -117,7 +117,7 @@ TEST_P(GhostPassTest, HaveTheirColorsHoweverManyThereAre) {
     ghosts[1].color = kGhostRed;
     ghosts[1].mesh = sheet(level_at(9));
     expect_light(draw(ghosts, 1.0f), 5.2, kGhostRed);
-    ghosts[1].color = kGhostGreen; // the same meshes in other colors
+    ghosts[1].color = kGhostGreen; // only the colors are others
     expect_light(draw(ghosts, 1.0f), 5.2, kGhostGreen);
 }
 

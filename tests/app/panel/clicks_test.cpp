@@ -78,6 +78,7 @@ TEST_F(Clicks, TwoLeadToAClipPlaneAcrossX) {
 
 TEST_F(Clicks, ALineOfTheHistogramIsTakenWhereTheHandIsAndPicksItsSurface) {
     asked_.isosurfaces = {{20, {1, 0, 0}, 1}, {80, {0, 1, 0}, 1}};
+    size_.y = 900; // all of the panel has room, and no scroll bar stands beside it
     frame();
     // From 12 to 288 lie the values 0 to 100.
     const auto place_of = [](float value) { return glm::vec2(12 + 2.76f * value, 280); };

@@ -75,9 +75,9 @@ TEST_F(CurveDrawerTest, GoesWhereThePlotIsPressed) {
 }
 
 TEST_F(CurveDrawerTest, PlotsTheMeasureWhoseLineIsPressed) {
-    const interaction::Commands commands = click_word("pieces");
+    const interaction::Commands commands = click_word("bodies");
     ASSERT_TRUE(commands.curves);
-    EXPECT_EQ(commands.curves->measure, "pieces");
+    EXPECT_EQ(commands.curves->measure, "bodies");
     EXPECT_TRUE(commands.curves->shown);
 }
 

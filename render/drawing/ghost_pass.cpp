@@ -4,20 +4,19 @@
 
 #include "render/cells/frame_block.h"
 #include "render/drawing/mesh_look.h"
-#include "render/drawing/mesh_order.h"
 #include "render/gl/gl_memory.h"
 #include "render/gl/soft_edges.h"
 #include "render/gl/srgb.h"
 #include "render/gl/viewport.h"
 #include "render/passes/color_map.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace isochron::render {
 namespace {
@@ -25,9 +24,7 @@ namespace {
 constexpr GLint kFirstGhostVertices = 1; ///< uniform location in mesh.vert
 constexpr GLuint kColorOnMap = 1;        ///< attribute of mesh.vert
 constexpr GLuint kMapUnit = 7,
-                 kFieldUnit = 9;  ///< texture units of appearance.glsl, surroundings.glsl
-constexpr float kDirections = 32; ///< parts of 1 to which directions of views are rounded
-constexpr std::size_t kMostOrders = 8;
+                 kFieldUnit = 9; ///< texture units of appearance.glsl, surroundings.glsl
 
 LazyProgram ghost_program(const Gl& gl, const index::Grid& grid, const char* way) {
     const auto of_one_surface = [&gl](GLuint program) {
@@ -52,7 +49,7 @@ std::uint16_t band_on_map(std::size_t band, std::size_t bands) {
 GhostPass::GhostPass(const Gl& gl, const index::Grid& grid)
     : gl_(&gl), near_(ghost_program(gl, grid, "#define NEAR\n")),
       small_(ghost_program(gl, grid, "#define LIT_AT_VERTICES\n")), vertex_array_(gl), frame_(gl),
-      vertices_(gl), numbers_(gl), axes_(gl, grid), nothing_around_(gl) {
+      vertices_(gl), numbers_(gl), axes_(gl, grid), nothing_around_(gl), orders_(gl) {
     for (int axis = 0; axis < 3; ++axis) {
         const auto along = static_cast<std::size_t>(axis);
         for (std::uint32_t vertex = 0; vertex < grid.vertices[along]; ++vertex)
@@ -83,7 +80,7 @@ void GhostPass::hold(std::span<const GhostMesh> ghosts) {
 }
 
 void GhostPass::send() {
-    sorted_.clear();
+    orders_.clear();
     std::size_t vertices = 0;
     for (const GhostMesh& ghost : held_)
         vertices += ghost.mesh->vertices.size();
@@ -104,39 +101,25 @@ void GhostPass::send() {
     expect_memory(*gl_, "ghosts");
 }
 
-const GhostPass::Sorted& GhostPass::sorted_along(const glm::vec3& ahead,
-                                                 const Placement& placement) {
-    const auto known = std::ranges::find(sorted_, ahead, &Sorted::ahead);
-    if (known != sorted_.end())
-        return *known;
-    std::vector<float> distances;
-    std::vector<std::uint32_t> corners;
-    std::uint32_t before = 0; // vertices of the ghosts before
-    for (const GhostMesh& ghost : held_) {
-        const auto& vertices = ghost.mesh->vertices;
-        const auto& triangles = ghost.mesh->triangles;
-        for (std::size_t i = 0; i < triangles.size(); i += 3) {
-            const index::MeshVertex& first = vertices[triangles[i]];
-            distances.push_back(ahead.x * places_[0][first.x] + ahead.y * places_[1][first.y] +
-                                ahead.z * places_[2][first.z]);
+const FarOrders::Order& GhostPass::sorted_along(const glm::vec3& ahead,
+                                                const Placement& placement) {
+    const auto measure = [&](std::vector<float>& distances, std::vector<std::uint32_t>& corners) {
+        std::uint32_t before = 0; // vertices of the ghosts before
+        for (const GhostMesh& ghost : held_) {
+            const auto& vertices = ghost.mesh->vertices;
+            const auto& triangles = ghost.mesh->triangles;
+            for (std::size_t i = 0; i < triangles.size(); i += 3) {
+                const index::MeshVertex& first = vertices[triangles[i]];
+                distances.push_back(ahead.x * places_[0][first.x] + ahead.y * places_[1][first.y] +
+                                    ahead.z * places_[2][first.z]);
+            }
+            for (const std::uint32_t corner : triangles)
+                corners.push_back(before + corner);
+            before += static_cast<std::uint32_t>(vertices.size());
         }
-        for (const std::uint32_t corner : triangles)
-            corners.push_back(before + corner);
-        before += static_cast<std::uint32_t>(vertices.size());
-    }
-    const float middle = 0.5f * glm::dot(ahead, placement.extent);
-    const auto beyond =
-        std::ranges::count_if(distances, [&](float distance) { return distance > middle; });
-    const std::vector<std::uint32_t> ordered = far_first(distances, corners);
-    if (sorted_.size() == kMostOrders)
-        sorted_.pop_front();
-    Sorted& order = sorted_.emplace_back(Sorted{ahead, Buffer(*gl_)});
-    order.beyond = 3 * static_cast<std::size_t>(beyond);
-    order.count = ordered.size();
-    gl_->NamedBufferData(order.corners.name(),
-                         static_cast<GLsizeiptr>(ordered.size() * sizeof(std::uint32_t)),
-                         ordered.data(), GL_STREAM_DRAW);
-    return order;
+    };
+    return orders_.along(ahead, 0.5f * glm::dot(ahead, placement.extent),
+                         std::numeric_limits<std::size_t>::max(), measure);
 }
 
 void GhostPass::draw(const View& view, const Placement& placement, float opacity,
@@ -149,11 +132,9 @@ void GhostPass::draw(const View& view, const Placement& placement, float opacity
     FrameBlock frame =
         frame_of(look, {}, Footprint::mesh, 1, true, placement, nothing_around_, false);
     frame.eyes[0] = eye_block(view, placement, look);
-    const glm::mat4& eye = frame.eyes[0].eye_from_index;
-    const glm::vec3 ahead = -glm::normalize(glm::vec3(eye[0].z, eye[1].z, eye[2].z));
-    const Sorted& order = sorted_along(glm::round(kDirections * ahead), placement);
-    const std::size_t first = share == TriangleShare::before ? order.beyond : 0;
-    const std::size_t end = share == TriangleShare::beyond ? order.beyond : order.count;
+    const FarOrders::Order& order =
+        sorted_along(rounded_direction(frame.eyes[0].eye_from_index), placement);
+    const auto [first, end] = order.part(share);
     if (first == end)
         return;
     gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);

@@ -10,7 +10,7 @@
 #include "render/cells/cell_appearance.h"
 #include "render/cells/placement.h"
 #include "render/cells/surroundings.h"
-#include "render/drawing/triangle_pass.h"
+#include "render/drawing/far_orders.h"
 #include "render/gl/gl_objects.h"
 #include "render/gl/shader.h"
 #include "render/gl/view.h"
@@ -18,9 +18,6 @@
 #include <glm/vec3.hpp>
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
-#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -41,23 +38,15 @@ class GhostPass {
     /// Sends meshes to the GPU unless they are there. @param ghosts all that are drawn from now on
     void hold(std::span<const GhostMesh> ghosts);
     /// Draws the triangles of all ghosts into the view's viewport of the bound framebuffer, the farthest
-    /// first along the view, whose direction is rounded to some two degrees: so an order serves for
-    /// both eyes and while a head sways, and depends on nothing that was drawn before. Tests depth and
-    /// writes none. Leaves depth test, depth writes and GL_FRAMEBUFFER_SRGB on, blending and culling
+    /// first along the view's rounded direction (`rounded_direction`). Tests depth and writes none. Leaves depth test, depth writes and GL_FRAMEBUFFER_SRGB on, blending and culling
     /// off.
     /// @param opacity of each layer that is seen face-on, 0 to 1
     void draw(const View& view, const Placement& placement, float opacity,
               const CellAppearance& appearance, TriangleShare share = TriangleShare::all);
 
   private:
-    /// The corners of all triangles in an order.
-    struct Sorted {
-        glm::vec3 ahead;
-        Buffer corners;
-        std::size_t beyond = 0, count = 0; ///< corners beyond the volume's middle; all
-    };
     void send();
-    const Sorted& sorted_along(const glm::vec3& ahead, const Placement& placement);
+    const FarOrders::Order& sorted_along(const glm::vec3& ahead, const Placement& placement);
 
     const Gl* gl_;
     /// Where the vertices of the grid lie along each axis, in even coordinates.
@@ -69,7 +58,7 @@ class GhostPass {
     Surroundings nothing_around_;
     std::optional<Texture> colors_;
     std::vector<GhostMesh> held_;
-    std::deque<Sorted> sorted_; ///< the last orders
+    FarOrders orders_; ///< triangles of all ghosts together
 };
 
 } // namespace isochron::render

@@ -3,7 +3,6 @@
 
 #include "render/cells/axis_table.h"
 #include "render/cells/frame_block.h"
-#include "render/drawing/mesh_order.h"
 #include "render/gl/soft_edges.h"
 #include "render/gl/srgb.h"
 #include "render/gl/viewport.h"
@@ -35,30 +34,13 @@ void send_all(const Gl& gl, const Buffer& buffer, const std::vector<T>& values, 
                        usage);
 }
 
-/// The corners of a share of the triangles, the farthest first.
-/// @param ahead distance of a place of the mesh along the view @param middle that of the volume's middle
-std::vector<std::uint32_t> far_corners(const index::TriangleMesh& mesh, const glm::vec4& ahead,
-                                       float middle, TriangleShare share) {
-    std::vector<float> distances;
-    std::vector<std::uint32_t> corners;
-    for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
-        const float at = glm::dot(ahead, glm::vec4(mesh.points[mesh.corners[i]], 1.0f));
-        if (share != TriangleShare::all && (at > middle) != (share == TriangleShare::beyond))
-            continue;
-        distances.push_back(at);
-        corners.insert(corners.end(), &mesh.corners[i], &mesh.corners[i] + 3);
-    }
-    return distances.size() > TrianglePass::kMostSorted ? corners : far_first(distances, corners);
-}
-
 } // namespace
 
 TrianglePass::TrianglePass(const Gl& gl, const index::Grid& grid)
-    : gl_(&gl), grid_(grid), programs_{triangle_program(gl, grid, false, false),
-                                       triangle_program(gl, grid, true, false),
-                                       triangle_program(gl, grid, false, true),
-                                       triangle_program(gl, grid, true, true)},
-      vertex_array_(gl), frame_(gl), sorted_(gl), no_normal_(gl), nothing_around_(gl) {
+    : gl_(&gl), grid_(grid),
+      programs_{triangle_program(gl, grid, false, false), triangle_program(gl, grid, true, false),
+                triangle_program(gl, grid, false, true), triangle_program(gl, grid, true, true)},
+      vertex_array_(gl), frame_(gl), no_normal_(gl), nothing_around_(gl) {
     constexpr glm::vec3 kNone(0.0f);
     gl.NamedBufferData(no_normal_.name(), sizeof(kNone), &kNone, GL_STATIC_DRAW);
     for (const GLuint attribute : {0u, 1u}) {
@@ -76,7 +58,7 @@ void TrianglePass::hold(std::span<const index::TriangleMeshPtr> meshes) {
         if (!mesh || mesh->corners.empty() ||
             std::ranges::find(held_, mesh, &Held::mesh) != held_.end())
             continue;
-        Held held{mesh, Buffer(*gl_), Buffer(*gl_), Buffer(*gl_), Buffer(*gl_)};
+        Held held{mesh, Buffer(*gl_), Buffer(*gl_), Buffer(*gl_), Buffer(*gl_), FarOrders(*gl_)};
         send_all(*gl_, held.points, mesh->points, GL_STATIC_DRAW);
         if (!mesh->normals.empty())
             send_all(*gl_, held.normals, mesh->normals, GL_STATIC_DRAW);
@@ -112,15 +94,21 @@ void TrianglePass::draw(const View& view, const Placement& placement,
         frame.linear_light = 1;
     const glm::mat4 index_from_mesh(
         glm::translate(glm::inverse(grid_.physical_from_index()), mesh.origin));
-    std::vector<std::uint32_t> sorted;
+    const FarOrders::Order* sorted = nullptr;
+    std::array<std::size_t, 2> part{0, mesh.corners.size()};
     if (blended && !look.lines) {
-        const glm::mat4& eye = frame.eyes[0].eye_from_index;
-        const glm::vec4 ahead = -glm::vec4(eye[0].z, eye[1].z, eye[2].z, eye[3].z);
-        sorted = far_corners(mesh, ahead * index_from_mesh,
-                             glm::dot(ahead, glm::vec4(0.5f * placement.extent, 1.0f)), share);
-        if (sorted.empty())
+        const glm::vec3 ahead = rounded_direction(frame.eyes[0].eye_from_index);
+        const glm::vec4 along = glm::vec4(ahead, 0.0f) * index_from_mesh;
+        sorted = &held->orders.along(
+            ahead, 0.5f * glm::dot(ahead, placement.extent), kMostSorted,
+            [&](std::vector<float>& distances, std::vector<std::uint32_t>& corners) {
+                corners = mesh.corners;
+                for (std::size_t i = 0; i < corners.size(); i += 3)
+                    distances.push_back(glm::dot(along, glm::vec4(mesh.points[corners[i]], 1.0f)));
+            });
+        part = sorted->part(share);
+        if (part[0] == part[1])
             return;
-        send_all(*gl_, sorted_, sorted, GL_STREAM_DRAW);
     } else if (share == TriangleShare::beyond) {
         return; // lines come at once
     }
@@ -142,14 +130,12 @@ void TrianglePass::draw(const View& view, const Placement& placement,
         blend_over(*gl_);
     else
         gl_->Disable(GL_BLEND);
-    if (look.lines)
+    if (look.lines) {
         send_edges(*held);
-    if (look.lines)
-        draw_elements(*held, true, held->edges.name(), 2 * mesh.corners.size());
-    else if (blended)
-        draw_elements(*held, false, sorted_.name(), sorted.size());
-    else
-        draw_elements(*held, false, held->corners.name(), mesh.corners.size());
+        draw_elements(*held, true, held->edges.name(), {0, 2 * mesh.corners.size()});
+    } else {
+        draw_elements(*held, false, (sorted ? sorted->corners : held->corners).name(), part);
+    }
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
     gl_->Disable(GL_BLEND);
     gl_->DepthMask(GL_TRUE);
@@ -157,7 +143,7 @@ void TrianglePass::draw(const View& view, const Placement& placement,
 }
 
 void TrianglePass::draw_elements(const Held& held, bool lines, GLuint corners,
-                                 std::size_t count) const {
+                                 std::array<std::size_t, 2> part) const {
     const GLuint array = vertex_array_.name();
     const bool lit = !held.mesh->normals.empty();
     gl_->VertexArrayVertexBuffer(array, 0, held.points.name(), 0, sizeof(glm::vec3));
@@ -165,8 +151,9 @@ void TrianglePass::draw_elements(const Held& held, bool lines, GLuint corners,
                                  lit ? sizeof(glm::vec3) : 0);
     gl_->VertexArrayElementBuffer(array, corners);
     gl_->BindVertexArray(array);
-    gl_->DrawElements(lines ? GL_LINES : GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
-                      nullptr);
+    gl_->DrawElements(lines ? GL_LINES : GL_TRIANGLES, static_cast<GLsizei>(part[1] - part[0]),
+                      GL_UNSIGNED_INT,
+                      reinterpret_cast<const void*>(part[0] * sizeof(std::uint32_t)));
     gl_->BindVertexArray(0);
 }
 

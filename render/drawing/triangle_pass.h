@@ -6,6 +6,7 @@
 #include "render/cells/cell_appearance.h"
 #include "render/cells/placement.h"
 #include "render/cells/surroundings.h"
+#include "render/drawing/far_orders.h"
 #include "render/gl/gl_objects.h"
 #include "render/gl/shader.h"
 #include "render/gl/view.h"
@@ -13,7 +14,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -26,10 +27,6 @@ struct TriangleLook {
     bool operator==(const TriangleLook&) const = default;
 };
 
-/// What is drawn of translucent triangles: those beyond the middle of the volume come before cells
-/// that write no depth, the others after them.
-enum class TriangleShare : std::uint8_t { all, beyond, before };
-
 class TrianglePass {
   public:
     /// @param grid of the cells
@@ -39,7 +36,8 @@ class TrianglePass {
     void hold(std::span<const index::TriangleMeshPtr> meshes);
     /// Draws a mesh that is held into the view's viewport of the bound framebuffer. Opaque triangles
     /// test and write depth; translucent ones only test it, and blend over the target, the farthest
-    /// first by their first corners, up to kMostSorted of them: more are drawn as they come. Light,
+    /// first by their first corners, along the view's rounded direction (`rounded_direction`), up to
+    /// kMostSorted of them: more are drawn as they come. Light,
     /// cuts and fading are those of surfaces. Leaves depth test, depth writes and
     /// GL_FRAMEBUFFER_SRGB on, blending and culling off.
     void draw(const View& view, const Placement& placement, const index::TriangleMesh& mesh,
@@ -52,17 +50,19 @@ class TrianglePass {
     struct Held {
         index::TriangleMeshPtr mesh;
         Buffer points, normals, corners, edges;
+        FarOrders orders;
         bool has_edges = false;
     };
     void send_edges(Held& held) const;
-    /// Draws from the mesh's corners, or from these.
-    void draw_elements(const Held& held, bool lines, GLuint corners, std::size_t count) const;
+    /// Draws corners of a buffer, from the first to that before the end.
+    void draw_elements(const Held& held, bool lines, GLuint corners,
+                       std::array<std::size_t, 2> part) const;
 
     const Gl* gl_;
     index::Grid grid_;
     std::array<LazyProgram, 4> programs_; ///< by blended + 2 * lines
     VertexArray vertex_array_;
-    Buffer frame_, sorted_, no_normal_;
+    Buffer frame_, no_normal_;
     Surroundings nothing_around_;
     std::vector<Held> held_;
 };

@@ -1,8 +1,10 @@
 // Ghosts as they are drawn: the nearest last wherever they are, each in its color, cut, and hidden by
 // what is before them.
 #include "render/drawing/ghost_pass.h"
+#include "render/drawing/triangle_pass.h"
 #include "render/gl/render_target.h"
 #include "render/gl/srgb.h"
+#include "tests/render/drawing/flat_view.h"
 #include "tests/support/drawing/gl_test.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -43,14 +45,8 @@ class GhostPassTest : public GlTest {
                TriangleShare share = TriangleShare::all) {
         const index::Grid grid{.vertices = {11, 11, 11}};
         const Placement placement = Placement::of(grid, glm::dmat4(1.0));
-        const View view{.clip_from_eye = glm::ortho(-5.0f, 5.0f, -5.0f, 5.0f, 1.0f, 100.0f),
-                        .eye_from_room =
-                            glm::lookAt(glm::vec3(5, 5, 20), glm::vec3(5, 5, 0), {0, 1, 0}),
-                        .size = {kGhostPixels, kGhostPixels}};
-        CellAppearance look;
-        look.ambient = look.ground = 1;
-        look.head_light = look.key_light = look.reflectance = look.outline = look.depth_cue = 0;
-        look.cuts = cuts;
+        const View view = flat_view(kGhostPixels);
+        const CellAppearance look = flat_light(cuts);
         target_.bind();
         target_.clear({0, 0, 0, 1});
         if (wall >= 0) {

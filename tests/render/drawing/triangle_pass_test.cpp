@@ -2,6 +2,7 @@
 #include "render/drawing/triangle_pass.h"
 #include "render/gl/render_target.h"
 #include "render/gl/srgb.h"
+#include "tests/render/drawing/flat_view.h"
 #include "tests/support/drawing/gl_test.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -38,14 +39,8 @@ class TrianglePassTest : public GlTest {
         const index::Grid grid{.vertices = {11, 11, 11}, .origin = origin};
         const Placement placement =
             Placement::of(grid, glm::translate(glm::dmat4(1.0), -origin)); // the data's corner: 0
-        const View view{.clip_from_eye = glm::ortho(-5.0f, 5.0f, -5.0f, 5.0f, 1.0f, 100.0f),
-                        .eye_from_room =
-                            glm::lookAt(glm::vec3(5, 5, 20), glm::vec3(5, 5, 0), {0, 1, 0}),
-                        .size = {kPlatePixels, kPlatePixels}};
-        CellAppearance look;
-        look.ambient = look.ground = 1;
-        look.head_light = look.key_light = look.reflectance = look.outline = look.depth_cue = 0;
-        look.cuts = cuts;
+        const View view = flat_view(kPlatePixels);
+        const CellAppearance look = flat_light(cuts);
         TrianglePass pass(gl_, grid);
         std::vector<index::TriangleMeshPtr> held;
         for (const Drawn& each : all)

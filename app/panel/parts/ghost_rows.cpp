@@ -66,9 +66,7 @@ void ghost_rows(const PanelModel& model, interaction::Commands& commands) {
     tip("how many steps it is from one ghost to the next");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(width);
-    float percent = 100.0f * ghosts.opacity;
-    if (number_field("##opacity", percent, {.low = 0, .high = 100}, "%.0f %%"))
-        ghosts.opacity = percent / 100.0f;
+    share_field("##opacity", ghosts.opacity);
     tip("opacity of the ghosts");
     // In the room all walls say the same, whatever has been made.
     const std::string& words =

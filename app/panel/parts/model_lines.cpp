@@ -58,9 +58,7 @@ bool model_row(const PanelModel& model, const ListedModel& line, Model& shown) {
     tip("the edges of its triangles, not their faces");
     ImGui::SameLine(left + width - kModelOpacity - kModelIcon - gap);
     ImGui::SetNextItemWidth(kModelOpacity);
-    float percent = 100.0f * shown.opacity;
-    if (number_field("##opacity", percent, {.low = 0, .high = 100}, "%.0f %%"))
-        shown.opacity = percent / 100.0f;
+    share_field("##opacity", shown.opacity);
     tip("opacity");
     ImGui::SameLine();
     return icon_button("remove", Icon::remove, "remove this model", false, kModelIcon);

@@ -134,6 +134,14 @@ bool number_field(const char* id, float& value, const FieldRange& range, const c
                  format);
 }
 
+bool share_field(const char* id, float& share) {
+    float percent = 100.0f * share;
+    const bool changed = number_field(id, percent, {.low = 0, .high = 100}, "%.0f %%");
+    if (changed)
+        share = percent / 100.0f;
+    return changed;
+}
+
 bool whole_number_field(const char* id, int* value, int low, int high, const char* format) {
     const ImGuiID number = ImGui::GetID(id);
     if (ImGui::GetCurrentContext()->ActiveId != number)

@@ -34,6 +34,9 @@ struct FieldRange {
 bool number_field(const char* id, double& value, const FieldRange& range, const char* format);
 bool number_field(const char* id, float& value, const FieldRange& range, const char* format);
 
+/// A number field for a share, 0 to 1, in percent.
+bool share_field(const char* id, float& share);
+
 /// A field for a whole number between two bounds; NumberEntry knows then that it is whole, and
 /// remembers the number that it had. @param low at least 0
 bool whole_number_field(const char* id, int* value, int low, int high, const char* format);

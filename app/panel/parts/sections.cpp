@@ -120,9 +120,7 @@ void look_rows(const PanelModel& model, Commands& commands) {
     named_row("material", look.material, "how surfaces shine");
     light_row(look);
     row("occlusion");
-    float percent = 100.0f * look.occlusion;
-    if (number_field("##occlusion", percent, {.low = 0, .high = 100}, "%.0f %%"))
-        look.occlusion = percent / 100.0f;
+    share_field("##occlusion", look.occlusion);
     tip("ambient occlusion: how dark crevices are");
     if (look != model.asked.look)
         commands.look = look;

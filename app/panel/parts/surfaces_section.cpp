@@ -115,9 +115,7 @@ void surface_row(const PanelModel& model, std::uint32_t i, Isosurface& surface,
     tip("isovalue: drag, or click and type (Up, Down)");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(kOpacityField);
-    float percent = 100.0f * surface.opacity;
-    if (number_field("##opacity", percent, {.low = 0, .high = 100}, "%.0f %%"))
-        surface.opacity = percent / 100.0f;
+    share_field("##opacity", surface.opacity);
     tip("opacity");
     ImGui::SameLine();
     menu_of_surface(model, i, change);

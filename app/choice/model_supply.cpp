@@ -5,6 +5,8 @@
 #include "index/error.h"
 #include "index/readers/formats/model_file.h"
 #include "index/system/links/link.h"
+#include "index/system/whole_path.h"
+#include "index/volume/grid_corners.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -20,29 +22,11 @@ namespace {
 namespace fs = std::filesystem;
 using Box = std::array<glm::dvec3, 2>;
 
-/// A path without links, as far as its parts are there.
-fs::path real_path(const fs::path& path) {
-    std::error_code error;
-    fs::path real = fs::weakly_canonical(fs::absolute(path, error), error);
-    return error ? fs::absolute(path, error).lexically_normal() : real;
-}
-
-bool lies_in(const fs::path& file, const fs::path& folder) {
-    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
-           folder.end();
-}
-
 Box box_of(const index::Grid& grid) {
-    Box box{grid.physical({0, 0, 0}), grid.physical({0, 0, 0})};
-    const auto cells = grid.cells();
-    for (int corner = 0; corner < 8; ++corner) {
-        glm::dvec3 index(0.0);
-        for (int axis = 0; axis < 3; ++axis)
-            if ((corner >> axis & 1) != 0)
-                index[axis] = static_cast<double>(cells[static_cast<std::size_t>(axis)]);
-        const glm::dvec3 at = grid.physical(index);
+    const auto corners = index::corners_of(grid);
+    Box box{corners[0], corners[0]};
+    for (const glm::dvec3& at : corners)
         box = {glm::min(box[0], at), glm::max(box[1], at)};
-    }
     return box;
 }
 
@@ -67,19 +51,19 @@ ModelSupply::ModelSupply(const fs::path& data)
 }
 
 void ModelSupply::add_folder(const fs::path& folder) {
-    const fs::path real = real_path(folder.empty() ? fs::path(".") : folder);
+    const fs::path real = index::whole_path(folder.empty() ? fs::path(".") : folder);
     if (std::ranges::find(folders_, real) == folders_.end())
         folders_.push_back(real);
 }
 
 std::string ModelSupply::allow(const fs::path& file) {
-    const fs::path real = real_path(file.is_absolute() ? file : place_of(file.string()));
+    const fs::path real = index::whole_path(file.is_absolute() ? file : place_of(file.string()));
     allowed_.insert(real);
     for (auto& [path, known] : known_)
-        if (!known.fault.empty() && real_path(place_of(path)) == real)
+        if (!known.fault.empty() && index::whole_path(place_of(path)) == real)
             known = {};
     for (const fs::path& folder : folders_)
-        if (lies_in(real, folder))
+        if (index::lies_within(real, folder))
             return real.lexically_relative(folder).string();
     return real.string();
 }
@@ -97,7 +81,7 @@ void ModelSupply::allow_those_of(const interaction::Commands& commands) {
 std::vector<std::string> ModelSupply::allowed(const ExplorerState& state) const {
     std::vector<std::string> files;
     for (const interaction::Model& model : state.models)
-        if (const fs::path real = real_path(place_of(model.path)); allowed_.contains(real))
+        if (const fs::path real = index::whole_path(place_of(model.path)); allowed_.contains(real))
             files.push_back(real.string());
     return files;
 }
@@ -115,10 +99,10 @@ fs::path ModelSupply::place_of(const std::string& path) const {
 }
 
 bool ModelSupply::may_open(const fs::path& file) const {
-    const fs::path real = real_path(file);
+    const fs::path real = index::whole_path(file);
     return all_ || allowed_.contains(real) ||
-           std::ranges::any_of(folders_,
-                               [&](const fs::path& folder) { return lies_in(real, folder); });
+           std::ranges::any_of(
+               folders_, [&](const fs::path& folder) { return index::lies_within(real, folder); });
 }
 
 ModelSupply::Read ModelSupply::read(const Wanted& wanted, const Asking& /*asking*/) {
@@ -132,8 +116,7 @@ ModelSupply::Read ModelSupply::read(const Wanted& wanted, const Asking& /*asking
 
 void ModelSupply::complain(Known& known, const std::string& fault) {
     known.fault = fault;
-    std::ranges::replace_if(
-        known.fault, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+    std::ranges::replace_if(known.fault, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
     messages_.push_back(known.fault);
     faults_.push_back(known.fault);
 }

@@ -8,6 +8,7 @@
 #include "index/readers/formats/series/file_series.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
+#include "index/system/whole_path.h"
 
 #include <fmt/format.h>
 
@@ -40,18 +41,6 @@ std::string_view words_of(OutputKind kind) {
     return {};
 }
 
-fs::path whole(const fs::path& path) {
-    std::error_code ignored;
-    const fs::path full = fs::absolute(path, ignored);
-    const fs::path found = fs::weakly_canonical(full, ignored);
-    return found.empty() ? full : found;
-}
-
-bool lies_within(const fs::path& file, const fs::path& folder) {
-    const fs::path inner = whole(file), outer = whole(folder);
-    return std::ranges::mismatch(outer, inner).in1 == outer.end();
-}
-
 /// Where outputs lie, most of which share their folder: it is looked up once.
 class Places {
   public:
@@ -59,7 +48,7 @@ class Places {
         const fs::path folder = file.parent_path();
         const auto [known, is_new] = folders_.try_emplace(folder.native());
         if (is_new)
-            known->second = whole(folder.empty() ? fs::path(".") : folder);
+            known->second = index::whole_path(folder.empty() ? fs::path(".") : folder);
         return known->second / file.filename();
     }
 
@@ -102,10 +91,11 @@ std::optional<std::string> harm_to(const fs::path& input, const Found& found) {
     if (folder.empty() && fs::is_directory(input, ignored) &&
         !(found.known && !index::known_file(found.path).format))
         folder = input;
-    if (!folder.empty() && lies_within(found.path, folder))
+    if (!folder.empty() &&
+        index::lies_within(index::whole_path(found.path), index::whole_path(folder)))
         return fmt::format("is an input, as {} is read", folder.string());
     const std::string name = found.path.filename().string(),
-                      real = whole(found.path).filename().string();
+                      real = index::whole_path(found.path).filename().string();
     if (is_named_in(input, name) || (real != name && is_named_in(input, real)))
         return fmt::format("is an input, as {} names it", input.string());
     return std::nullopt;
@@ -113,7 +103,7 @@ std::optional<std::string> harm_to(const fs::path& input, const Found& found) {
 
 /// Whether an index was built of this file, by its name or by its size and time.
 bool is_source_of(const index::IndexFile& index, const fs::path& file) {
-    const std::string name = whole(file).filename().string();
+    const std::string name = index::whole_path(file).filename().string();
     std::uint64_t state = 0;
     try {
         const index::FileState now = index::state_of(file);
@@ -143,7 +133,7 @@ std::vector<fs::path> sources_near(const index::IndexFile& index, const fs::path
     const auto& names = index.info().sources;
     if (names.empty())
         return near;
-    fs::path folder = whole(output).parent_path();
+    fs::path folder = index::whole_path(output).parent_path();
     for (int up = 0; up < kDeepest && folder.has_relative_path(); ++up) {
         std::error_code ignored;
         for (const std::string& name : std::set<std::string>{names.front(), names.back()})

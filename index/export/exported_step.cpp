@@ -2,6 +2,7 @@
 #include "index/export/exported_step.h"
 
 #include "index/export/simplified_mesh.h"
+#include "index/volume/grid_corners.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -31,13 +32,8 @@ ExportedPlaces::ExportedPlaces(const Grid& grid, const ExportPlan& plan)
 
 void ExportedPlaces::find_farthest() {
     farthest_ = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        glm::dvec3 index(0.0);
-        for (int axis = 0; axis < 3; ++axis)
-            if (corner >> axis & 1)
-                index[axis] =
-                    static_cast<double>(grid_.vertices[static_cast<std::size_t>(axis)] - 1);
-        const glm::dvec3 at = glm::abs(grid_.physical(index) * factor_ - origin_);
+    for (const glm::dvec3& corner : corners_of(grid_)) {
+        const glm::dvec3 at = glm::abs(corner * factor_ - origin_);
         farthest_ = std::max({farthest_, at.x, at.y, at.z});
     }
 }

@@ -4,6 +4,7 @@
 #include "index/error.h"
 #include "index/lower_case.h"
 #include "index/system/input_file.h"
+#include "index/system/whole_path.h"
 
 #include <algorithm>
 #include <cassert>
@@ -90,8 +91,7 @@ KnownFile known_file(const fs::path& given, bool is_folder) {
 }
 
 fs::path described_folder(const fs::path& file) {
-    std::error_code ignored;
-    const fs::path whole = fs::weakly_canonical(fs::absolute(file, ignored), ignored);
+    const fs::path whole = whole_path(file);
     const auto is_described = [](const fs::path& folder) {
         return known_file(folder).path != folder;
     };

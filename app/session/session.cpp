@@ -84,7 +84,7 @@ interaction::ControlContext Session::control_context(const interaction::Ways& wa
                        .times = &times_.at,
                        .gaps = &times_.gaps,
                        .pivot = physical_center(arrays_.file()->info().grid),
-                       .home = home_with_models().room_from_physical},
+                       .home = home_place()},
             .color_arrays = {&arrays_.color_names(), color_array(state_, *arrays_.file())},
             .called_panel = {panel_.in_room().distance(), panel_.place()},
             .ways = ways,
@@ -104,7 +104,10 @@ bool Session::fades_to_steps() const {
 
 Commands Session::commands_from(const interaction::InputState& input) {
     const std::size_t arrays = arrays_.names().size();
-    const Commands start = state_.way_to_start(home_with_models());
+    Commands start = state_.way_to_start(home_);
+    start.room_from_physical.reset();
+    if (const interaction::Similarity home = home_place(); home != state_.room_from_physical)
+        start.room_from_physical = home;
     std::optional<Commands> next_array;
     if (arrays > 1)
         next_array = way_to_array((arrays_.number(state_) + 1) % arrays);
@@ -151,26 +154,26 @@ interaction::InputState Session::seen(const interaction::InputState& input, cons
     return seen;
 }
 
-/// The start, seen from so far that models are as much in view as the data were.
-ExplorerState Session::home_with_models() const {
-    ExplorerState home = home_;
+/// The place of the data at the start, from so far that models are as much in view as the data were.
+interaction::Similarity Session::home_place() const {
+    const interaction::Similarity& place = home_.room_from_physical;
+    if (state_.models.empty())
+        return place;
     const index::Grid& grid = arrays_.file()->info().grid;
     const auto data = models_.box({}, grid), all = models_.box(state_, grid);
     if (all == data)
-        return home;
-    interaction::Similarity& place = home.room_from_physical;
+        return place;
     const glm::dvec3 middle = interaction::transform(place, physical_center(grid));
     const glm::dvec3 wider = interaction::transform(place, 0.5 * all[0] + 0.5 * all[1]);
-    place = interaction::scaled(
-        interaction::moved(place, middle - wider), middle,
-        glm::distance(data[0], data[1]) / glm::distance(all[0], all[1]), 0.0, place.scale);
-    return home;
+    return interaction::scaled(interaction::moved(place, middle - wider), middle,
+                               glm::distance(data[0], data[1]) / glm::distance(all[0], all[1]), 0.0,
+                               place.scale);
 }
 
 /// Where the data lie to the viewer as they did at the start.
 interaction::Similarity Session::all_in_view(const Audience& audience) const {
     const interaction::Pose first{config_.installation.viewers.front().position, {1, 0, 0, 0}};
-    const interaction::Similarity home = home_with_models().room_from_physical;
+    const interaction::Similarity home = home_place();
     return audience.viewers.empty()
                ? home
                : interaction::carried(home, first, audience.viewers.front().head);

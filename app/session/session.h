@@ -217,7 +217,7 @@ class Session {
     void show_again(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay,
                     const SessionPanel::Facts& facts);
     void draw_aids();
-    ExplorerState home_with_models() const;
+    interaction::Similarity home_place() const;
     interaction::Similarity all_in_view(const Audience& audience) const;
     bool is_settled(const Frame& frame) const;
     std::optional<glm::vec2> told_at() const;

@@ -57,6 +57,8 @@ const teller = new Teller(part("card"), part<HTMLButtonElement>("tell"), {
     keepSoon();
   },
 });
+// What stands above the bar follows its height.
+new ResizeObserver(() => document.documentElement.style.setProperty("--bar", `${part("bar").offsetHeight}px`)).observe(part("bar"));
 const histogram = new Histogram(part<HTMLCanvasElement>("histogram"));
 const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
 const say = (words: ToWorker) => worker.postMessage(words);
@@ -328,7 +330,7 @@ function opened(found: Info[], count: number): void {
   }
   // A link that has a view of its own has all the rest, too; one that names a step alone shows that.
   if (story) teller.open(story, view ? (told ?? 0) : (told ?? null), view === undefined);
-  if (!story || view || told === 0) ask(false);
+  if (view || !teller.told) ask(false);
 }
 
 worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {

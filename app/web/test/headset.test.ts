@@ -138,8 +138,8 @@ test("a story is told by stick and by the ray on its card, and the data stand wh
 
 test("sticks change time and isovalue, and leaving gives the page back", async () => {
   await act("headset.controllers.right.updateAxis('thumbstick', 'x-axis', 1);");
+  await page.waitForFunction(() => !location.hash.includes("step=0"), null, { polling: 50 }); // it goes round
   await act("headset.controllers.right.updateAxis('thumbstick', 'x-axis', 0);");
-  await page.waitForFunction(() => !location.hash.includes("step=0"), null, { polling: 50 });
   await act("headset.controllers.right.updateAxis('thumbstick', 'y-axis', 1);");
   await act("headset.controllers.right.updateAxis('thumbstick', 'y-axis', 0);");
   const isovalue = Number(new URLSearchParams((await page.evaluate("location.hash") as string).slice(1)).get("isovalue"));

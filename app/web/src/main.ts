@@ -4,7 +4,7 @@ import { Vector3 } from "three";
 import { isPlain, linked, linkOf, MOST_SURFACES, type Linked, type Surface } from "./link";
 import type { Asked, Found, FromWorker, ToWorker } from "./messages";
 import type { Info } from "./reader/index_file";
-import { LARGEST_STORY, storyOf, type Key } from "./story/story";
+import { misfit, storyAt, type Key } from "./story/story";
 import { Teller } from "./story/teller";
 import { sightOf } from "./story/way";
 import { colorsOf, drawLegend, MAP_NAMES, type MapName } from "./view/colors";
@@ -253,17 +253,6 @@ function goToKey(key: Key, leaps: boolean): void {
   scene.go(to, still);
 }
 
-/** What of a story the data do not have, in one line; empty: nothing. */
-function misfit(keys: readonly Key[]): string {
-  const steps = infos[0]!.times.length;
-  for (const [i, { step, array, coloring }] of keys.entries()) {
-    if (step !== undefined && step >= steps) return `key ${i + 1}: step: expected 0 to ${steps - 1}, got ${step}`;
-    for (const name of [array, coloring?.by === "value" ? coloring.array : undefined])
-      if (name !== undefined && arrayCalled(name) < 0) return `key ${i + 1}: the index has no array ${JSON.stringify(name)}`;
-  }
-  return "";
-}
-
 /** The line from the card to what its text is about. */
 function drawStoryLine(): void {
   const line = part("card-line");
@@ -325,7 +314,7 @@ function opened(found: Info[], count: number): void {
   }
   clip();
   if (story && !badStory) {
-    const why = misfit(story);
+    const why = misfit(story, infos[0]!.times.length, (name) => arrayCalled(name) >= 0);
     if (why) [story, badStory] = [null, `${state.story}: ${why}`];
   }
   // A link that has a view of its own has all the rest, too; one that names a step alone shows that.
@@ -515,32 +504,13 @@ scene.moved = () => {
 scene.arrived = () => (teller.card.dataset["moving"] = "false");
 scene.drawn = drawStoryLine;
 
-/** The story beside the page, checked; what is wrong with it is said, and the data are shown all the same. */
+/** The story beside the page; what is wrong with it is said, and the data are shown all the same. */
 async function openStory(name: string, headers: Record<string, string>): Promise<void> {
   try {
-    const answer = await fetch(encodeURIComponent(name), { cache: "no-store", headers });
-    if (!answer.ok) throw new Error(`${name}: the server answers ${answer.status} ${answer.statusText}`);
-    story = storyOf(await textOf(answer, name), name);
+    story = await storyAt(name, headers);
     state.story = name;
   } catch (error) {
     badStory = error instanceof Error ? error.message : String(error);
-  }
-}
-/** The text of an answer that is not larger than a story may be. */
-async function textOf(answer: Response, name: string): Promise<string> {
-  const reader = answer.body!.getReader();
-  const decoder = new TextDecoder();
-  let text = "";
-  let bytes = 0;
-  for (;;) {
-    const { done, value } = await reader.read();
-    if (done) return text + decoder.decode();
-    bytes += value.length;
-    if (bytes > LARGEST_STORY) {
-      await reader.cancel();
-      throw new Error(`${name}: expected at most ${LARGEST_STORY >> 20} MiB`);
-    }
-    text += decoder.decode(value, { stream: true });
   }
 }
 

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { expect, test } from "vitest";
 import { linked, linkOf } from "../src/link";
 import { gapsOf } from "../src/reader/index_file";
-import { storyHeading, storyOf, storyStep, type Key } from "../src/story/story";
+import { misfit, storyHeading, storyOf, storyStep, type Key } from "../src/story/story";
 import { sightOf, Way, type Sight } from "../src/story/way";
 import { wrapped } from "../src/view/hand_card";
 
@@ -66,6 +66,15 @@ test("no damage of a story does more than end in a line", () => {
     }
   }
   expect(refused).toBeGreaterThan(500);
+});
+
+test("a story is refused that needs steps or arrays that the data do not have", () => {
+  const has = (name: string) => ["", "T"].includes(name);
+  const of = (...keys: object[]) => misfit(keys.map((each) => key(each)), 4, has);
+  expect(of({ step: 3, array: "T" }, { coloring: { by: "value", map: "x", array: "" } }, { coloring: { by: "surface", map: "x", array: "gone" } })).toBe("");
+  expect(of({ step: 3 }, { step: 4 })).toBe("key 2: step: expected 0 to 3, got 4");
+  expect(of({ array: "gone" })).toBe('key 1: the index has no array "gone"');
+  expect(of({ coloring: { by: "value", map: "x", array: "gone" } })).toBe('key 1: the index has no array "gone"');
 });
 
 test("steps are the keys with texts, numbered as the program numbers them", () => {

@@ -35,7 +35,7 @@ export interface Key {
 }
 
 /** Most bytes of a story's file. */
-export const LARGEST_STORY = 1 << 22;
+const LARGEST_STORY = 1 << 22;
 const MOST_KEYS = 128;
 const LONGEST_TEXT = 2000; // bytes, as below
 const LONGEST_NAME = 256;
@@ -181,6 +181,36 @@ export function storyOf(text: string, name: string): Key[] {
     return keys;
   } catch (error) {
     throw new Error(`${name}: ${where}${error instanceof Error ? error.message : String(error)}`);
+  }
+}
+
+/** What of a story the data do not have, in one line; empty: nothing. */
+export function misfit(keys: readonly Key[], steps: number, hasArray: (name: string) => boolean): string {
+  for (const [i, { step, array, coloring }] of keys.entries()) {
+    if (step !== undefined && step >= steps) return `key ${i + 1}: step: expected 0 to ${steps - 1}, got ${step}`;
+    for (const name of [array, coloring?.by === "value" ? coloring.array : undefined])
+      if (name !== undefined && !hasArray(name)) return `key ${i + 1}: the index has no array ${JSON.stringify(name)}`;
+  }
+  return "";
+}
+
+/** The story in a file beside the page. Throws an Error in one line: it is not there, or as `storyOf`. */
+export async function storyAt(name: string, headers: Record<string, string>): Promise<Key[]> {
+  const answer = await fetch(encodeURIComponent(name), { cache: "no-store", headers });
+  if (!answer.ok) throw new Error(`${name}: the server answers ${answer.status} ${answer.statusText}`);
+  const reader = answer.body!.getReader();
+  const decoder = new TextDecoder();
+  let text = "";
+  let bytes = 0;
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) return storyOf(text + decoder.decode(), name);
+    bytes += value.length;
+    if (bytes > LARGEST_STORY) {
+      await reader.cancel();
+      throw new Error(`${name}: expected at most ${LARGEST_STORY >> 20} MiB`);
+    }
+    text += decoder.decode(value, { stream: true });
   }
 }
 

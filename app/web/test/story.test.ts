@@ -142,6 +142,9 @@ test("the way between views begins and ends at them, and a place that both show 
   });
   expect(distances.every((each, i) => i === 0 || each < distances[i - 1]!)).toBe(true);
   expect(distances[5]).toBeCloseTo(Math.sqrt(10 * Math.hypot(2, 1)), 6);
+  // What both turn around is nowhere near the data's center.
+  const far = new Way(sight([5, -10, 0], [5, 0, 0]), sight([15, 0, 0], [5, 0, 0]), new THREE.Vector3(0, 40, 0));
+  for (let i = 0; i <= 10; ++i) expect(far.at(i / 10).target.distanceTo(new THREE.Vector3(5, 0, 0))).toBeLessThan(0.1);
   // Aside, at one size: no overshoot.
   const aside = new Way(sight([0, -10, 0], [0, 0, 0]), sight([4, -10, 0], [4, 0, 0]), new THREE.Vector3());
   for (let i = 0; i <= 10; ++i) {

@@ -70,14 +70,14 @@ struct Volume {
     Scaling scaling;
     ChunkGrid chunks;
     bool has_bricks, has_since;
-    std::array<std::optional<LevelMap>, 2> levels; ///< of the step, and of the next one
+    std::array<std::optional<LevelMap>, 2> levels; ///< for the step, and for the next one
     double isovalue = 0;
     // Between two steps:
     std::optional<Blend> blend;
     std::optional<BlendedRanks> ranks; ///< none without bricks
     std::optional<LevelMap::Cut> cut;
     MeshMaker maker;
-    std::array<std::vector<std::byte>, 2> cubes; ///< of the step, and of the next one
+    std::array<std::vector<std::byte>, 2> cubes; ///< the step's, and the next one's
     std::vector<std::byte> blended;
     Surface surface;
 
@@ -268,7 +268,7 @@ void set_moment(Volume& volume, std::uint32_t fraction, std::span<const double> 
     if (fraction > 0)
         volume.blend.emplace(volume.type, volume.scaling, fraction, isovalues);
 }
-/// Of an array by whose values a surface is colored: no isovalue is asked for.
+/// Sets the moment for an array by whose values a surface is colored: no isovalue is asked for.
 EXPORT("set_colors") void set_colors(Volume* volume, std::uint32_t fraction) {
     set_moment(*volume, fraction, {});
 }

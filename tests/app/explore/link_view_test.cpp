@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <random>
+#include <regex>
 
 namespace isochron::app {
 namespace {
@@ -70,8 +71,13 @@ TEST_F(LinkView, IsReadAsItWasWritten) {
     EXPECT_EQ(read.coloring.range, state.coloring.range);
     EXPECT_GT(
         std::abs(glm::dot(read.room_from_physical.rotation, state.room_from_physical.rotation)),
-        1 - 1e-12);
-    EXPECT_EQ(link_to("http://h/a.isochron", read, file_, kScreen), link);
+        1 - 1e-9);
+    // What is up follows from the view, which the link says with seven digits.
+    const auto but_up = [](const std::string& text) {
+        return std::regex_replace(text, std::regex("&up=[^&]*"), "");
+    };
+    EXPECT_EQ(but_up(link_to("http://h/a.isochron", read, file_, kScreen)), but_up(link));
+    EXPECT_NE(but_up(link), link);
 }
 
 TEST_F(LinkView, ShowsPointsWhereThePagesCameraSeesThem) {

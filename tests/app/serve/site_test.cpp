@@ -170,7 +170,7 @@ TEST_F(SiteTest, HasAStoryBesideItsFilesAsItIs) {
     SiteParts parts{.files = {folder_.path() / "run 42.isochron"},
                     .token = "word",
                     .story = folder_.path() / "tour.isochron-story"};
-    parts.written = [](const auto&) { return ServedFile{5, "\"x\""}; }; // of the index
+    parts.written = [](const auto&) { return ServedFile{5, "\"x\""}; }; // the index, as it grows
     const Site one{std::move(parts)};
     const std::map<std::string, std::string, std::less<>> known{{"authorization", "Bearer word"}};
     const SiteAnswer story = get(one, "/tour.isochron-story", known);

@@ -89,7 +89,8 @@ ChunkPtr BetweenSteps::blended(const Chunk& now, const Chunk& next) const {
 std::vector<ChunkPtr> BetweenSteps::pairs(std::uint32_t layer,
                                           std::span<const std::uint32_t> places,
                                           const std::stop_token& stop) const {
-    store_.expect(at_.step + 1, layer, places); // announced before the first step is waited for
+    const std::vector<std::uint32_t> later(places.begin(), places.end());
+    store_.expect(at_.step + 1, layer, {&later, 1}); // before the first step is waited for
     std::vector<ChunkPtr> now = store_.chunks(at_.step, layer, places, stop);
     std::vector<ChunkPtr> next = store_.chunks(at_.step + 1, layer, places, stop);
     std::vector<ChunkPtr> pairs;
@@ -118,7 +119,7 @@ std::vector<ChunkPtr> BetweenSteps::chunks(std::uint32_t layer,
             missing.push_back(places[i]);
     if (missing.empty())
         return found;
-    store_.expect(at_.step + 1, layer, missing); // announced before the first step is waited for
+    store_.expect(at_.step + 1, layer, {&missing, 1}); // before the first step is waited for
     const std::vector<ChunkPtr> now = store_.chunks(at_.step, layer, missing, stop);
     const std::vector<ChunkPtr> next = store_.chunks(at_.step + 1, layer, missing, stop);
     std::vector<ByteCache::Entry> entries;
@@ -134,9 +135,9 @@ std::vector<ChunkPtr> BetweenSteps::chunks(std::uint32_t layer,
     return found;
 }
 
-std::uint64_t BetweenSteps::expect(std::uint32_t layer,
-                                   std::span<const std::uint32_t> places) const {
-    return store_.expect(at_.step, layer, places) + store_.expect(at_.step + 1, layer, places);
+std::uint64_t BetweenSteps::expect(std::uint32_t first,
+                                   std::span<const std::vector<std::uint32_t>> places) const {
+    return store_.expect(at_.step, first, places) + store_.expect(at_.step + 1, first, places);
 }
 
 std::uint64_t BetweenSteps::fetch(std::uint32_t layer, std::span<const std::uint32_t> places,

@@ -38,7 +38,8 @@ class BetweenSteps {
     /// The chunks at both steps, each a ChunkPair.
     std::vector<ChunkPtr> pairs(std::uint32_t layer, std::span<const std::uint32_t> places,
                                 const std::stop_token& stop) const;
-    std::uint64_t expect(std::uint32_t layer, std::span<const std::uint32_t> places) const;
+    std::uint64_t expect(std::uint32_t first,
+                         std::span<const std::vector<std::uint32_t>> places) const;
     std::uint64_t fetch(std::uint32_t layer, std::span<const std::uint32_t> places,
                         const std::stop_token& stop) const;
 

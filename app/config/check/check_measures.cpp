@@ -208,8 +208,9 @@ void order_of_planes(const CheckedRoom& room, const Tell& tell) {
 }
 
 void near_planes(const CheckedRoom& room, const Tell& tell) {
-    constexpr float kReach = 0.5f; // [m]
-    const float front = room.installation().near_plane, farthest = farthest_screen(room);
+    constexpr float kReach = 0.5f, kBefore = 0.5f; // [m]; of the way to a screen
+    const float front = room.installation().near_plane, farthest = farthest_screen(room),
+                nearest = nearest_screen(room);
     if (front >= farthest)
         tell(room, 0,
              fmt::format("{:.4g} m is behind all screens, the farthest of which is {:.4g} m from "
@@ -220,6 +221,11 @@ void near_planes(const CheckedRoom& room, const Tell& tell) {
              fmt::format("{:.4g} m: what is nearer to the eyes is not drawn, and that is within "
                          "reach: meters",
                          front));
+    else if (front > kBefore * nearest)
+        tell(room, 0,
+             fmt::format("{:.4g} m: a screen is {:.4g} m from its viewer, and most of what stands "
+                         "out of it is not drawn",
+                         front, nearest));
 }
 
 void far_planes(const CheckedRoom& room, const Tell& tell) {

@@ -422,6 +422,10 @@ std::vector<Mistake> mistakes_of_viewers() {
         {"viewers.head", "a hand", eyes("head = \"wand\"")},
         {"rendering.near", "behind the walls", cave("[rendering]\nnear = 5\n")},
         {"rendering.near", "out of reach", cave("[rendering]\nnear = 1\n")},
+        {"rendering.near", "most of the way to a monitor",
+         room_of({0, 1.2, 0.2},
+                 {{"desk", {-0.3, 0.8, -0.4}, {-0.3, 1.1375, -0.4}, {0.3, 1.1375, -0.4}}}) +
+             "[rendering]\nnear = 0.4\n"},
         {"rendering.near", "beyond far", cave("[rendering]\nnear = 3\nfar = 2\n")},
         {"rendering.far", "before the walls", cave("[rendering]\nfar = 1\n")},
         {"rendering.far", "before the floor", cave("[rendering]\nfar = 1.6\n")},

@@ -21,7 +21,7 @@ namespace {
 using stereo::StereoMode;
 
 bool alike(const Wall& a, const Wall& b) {
-    constexpr float kAlike = 0.02f; // of a side
+    constexpr float kAlike = 0.02f; // share of a side
     const glm::vec2 off = glm::abs(a.size / b.size - 1.0f);
     return std::max(off.x, off.y) < kAlike;
 }
@@ -32,7 +32,8 @@ glm::vec2 way_on_wall(const Wall& a, const Wall& b) {
     return glm::vec2(glm::dot(way, a.across), glm::dot(way, a.up)) / a.size;
 }
 
-/// Likewise in the window or on the desktop that both are on, y up; empty: nothing says.
+/// From one middle to the other in the window or on the desktop that both are on, in shares of the
+/// pixels, y up; empty: nothing says.
 std::optional<glm::vec2> way_in_pixels(const Wall& a, const Wall& b) {
     const auto is_placed = [](const stereo::Window& window) {
         return !window.fullscreen && window.position != glm::ivec2(-1);
@@ -55,7 +56,7 @@ std::optional<glm::vec2> way_in_pixels(const Wall& a, const Wall& b) {
 /// desktop, rows may be in any order.
 template <bool in_a_window>
 void exchanged_displays(const CheckedRoom& room, const Tell& tell) {
-    constexpr float kApart = 0.5f, kAligned = 0.25f; // of a display's side
+    constexpr float kApart = 0.5f, kAligned = 0.25f; // shares of a display
     bool told = false;
     each_pair(room, [&](const Wall& a, const Wall& b) {
         const auto pixels = way_in_pixels(a, b);
@@ -99,7 +100,7 @@ void unlike_pixels(const CheckedRoom& room, const Tell& tell) {
 
 /// Displays of which one lies over most of another. Blended projectors share less.
 void covering_displays(const CheckedRoom& room, const Tell& tell) {
-    constexpr float kMost = 0.5f; // of a display
+    constexpr float kMost = 0.5f; // share of a display
     each_pair(room, [&](const Wall& a, const Wall& b) {
         const bool pair_of_eyes =
             shows_one_eye(a) && a.window().stereo == stereo::inverted(b.window().stereo);
@@ -212,7 +213,7 @@ void screens_of_eyes(const CheckedRoom& room, const Tell& tell) {
     for (const PlacedViewport& left : room.viewports())
         for (const PlacedViewport& right : room.viewports()) {
             const stereo::Screen& screen = left.viewport.screen;
-            constexpr float kAside = 0.02f; // of the width
+            constexpr float kAside = 0.02f; // share of the width
             if (left.window.stereo == StereoMode::left &&
                 right.window.stereo == StereoMode::right && screen.carried_by_head &&
                 right.viewport.screen.carried_by_head &&

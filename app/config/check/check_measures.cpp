@@ -208,7 +208,7 @@ void order_of_planes(const CheckedRoom& room, const Tell& tell) {
 }
 
 void near_planes(const CheckedRoom& room, const Tell& tell) {
-    constexpr float kReach = 0.5f, kBefore = 0.5f; // [m]; of the way to a screen
+    constexpr float kReach = 0.5f, kBefore = 0.5f; // [m]; share of the way to a screen
     const float front = room.installation().near_plane, farthest = farthest_screen(room),
                 nearest = nearest_screen(room);
     if (front >= farthest)

@@ -187,7 +187,7 @@ void monitors_of_machines(const CheckedRoom& room, const Tell& tell) {
 
 void places_of_fullscreen(const CheckedRoom& room, const Tell& tell) {
     for (const stereo::Window& window : room.installation().windows)
-        if (window.fullscreen && window.position != glm::ivec2(-1))
+        if (window.fullscreen && std::max(window.position.x, window.position.y) > 0)
             tell(room, window.line.number,
                  fmt::format("window {} covers a monitor, so its position has no effect: monitor "
                              "says which one",

@@ -21,6 +21,7 @@
 #include "interaction/navigation/story.h"
 #include "interaction/step_track.h"
 #include "interaction/tools/clip_box.h"
+#include "interaction/tools/ruler_tool.h"
 #include "interaction/tools/slice_tool.h"
 
 #include <fmt/format.h>
@@ -249,6 +250,13 @@ constexpr OtherNames kOtherNames[] = {
     {"remove_clip", "no clip, clip off, unclip, remove slice, delete clip plane, show whole"},
     {"ruler_tool", "measure, measurement, distance, length, tape, line tool, dimension, caliper, "
                    "how far, how long, width, distance between points"},
+    {"ruler_angle", "angle, protractor, measure angle, three points, degrees, corner, slope"},
+    {"profile", "line profile, plot profile, plot over line, line plot, intensity profile, values "
+                "along a line, transect, cross section curve, sample along line, linescan"},
+    {"curves=profile", "line profile, plot over line, values along a line"},
+    {"annotations", "hide marks, hide rulers, hide annotations, show annotations, hide labels, "
+                    "declutter"},
+    {"remove_rulers", "clear measurements, delete all measurements, remove all rulers"},
     {"remove_ruler", "clear measurements, delete measurement, remove distance, remove ruler, erase "
                      "measurement"},
     {"remove_mark", "delete markers, clear marks, remove marker, remove point, clear selection, "
@@ -845,8 +853,11 @@ void add_tools(Lines& lines) {
     };
     remove("remove_mark", "remove the mark", asked.mark.point.has_value(), &Commands::mark,
            interaction::Mark{});
-    remove("remove_ruler", "remove the ruler", !asked.ruler.places.empty(), &Commands::ruler,
-           interaction::Ruler{});
+    const interaction::Rulers& rulers = asked.rulers;
+    remove("remove_ruler", "remove the ruler", rulers.chosen() != nullptr, &Commands::rulers,
+           without_ruler(rulers, rulers.picked));
+    remove("remove_rulers", "remove all rulers", rulers.list.size() > 1, &Commands::rulers,
+           interaction::Rulers{.angle = rulers.angle});
     remove("remove_clip", "remove the clip plane", asked.clip.shown, &Commands::clip,
            interaction::ClipPlane{});
     if (asked.clip_box.shown)
@@ -951,6 +962,8 @@ void add_curves(Lines& lines) {
             add(each.name, fmt::format("curve: {} over time", words_of_measure(each.name)));
     if (asked.mark.point)
         add(kMarkCurve, "curve: value at the mark over time");
+    if (asked.rulers.chosen() && asked.rulers.chosen()->complete())
+        add(kProfileCurve, "curve: values along the ruler");
 }
 
 Commands shown_at(const PanelModel& model, index::Instant at) {

@@ -214,7 +214,7 @@ bool has_line(const interaction::ToolRow& tool, const PanelModel& model) {
 } // namespace
 
 bool has_tool_strip(const PanelModel& model) {
-    return has_marks(model) ||
+    return model.asked.mark.point ||
            std::ranges::any_of(interaction::tool_table(), [&](const interaction::ToolRow& tool) {
                return has_line(tool, model);
            });
@@ -231,7 +231,7 @@ void tool_strip(const PanelModel& model, float width, Commands& commands) {
         else if (tool.kind == ToolKind::ruler)
             ruler_lines(model, commands);
     }
-    if (has_marks(model))
+    if (model.asked.mark.point)
         mark_lines(model, width, commands);
 }
 

@@ -77,7 +77,8 @@ TEST(FormatsPage, TheKeysOfPartsAreLookedFor) {
     const auto keys = keys_of_commands();
     EXPECT_EQ(keys.at("isosurfaces"), (std::vector<std::string>{"isovalue", "color", "opacity"}));
     EXPECT_EQ(keys.at("mark"), (std::vector<std::string>{"position", "step", "value", "fraction",
-                                                         "array", "unit"}));
+                                                         "array", "unit",
+                                        "shown"}));
     EXPECT_EQ(keys.at("stamps"), std::vector<std::string>{});
 }
 

@@ -42,8 +42,10 @@ ToolOutcome RulerTool::update(std::span<const ToolHand> hands, const ToolContext
 }
 
 std::string ruler_line(const Settings& settings) {
-    return settings.ruler.places.size() < kMostRulerPlaces ? "click two places on surfaces"
-                                                           : "ruler";
+    const std::size_t places = settings.ruler.places.size();
+    return places == 0                 ? "click two places on surfaces"
+           : places < kMostRulerPlaces ? "click the other place"
+                                       : "ruler";
 }
 
 std::vector<MarkedRow> ruler_rows(const Commands& commands) {

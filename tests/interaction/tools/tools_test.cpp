@@ -8,6 +8,7 @@
 
 #include <glm/gtx/norm.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace isochron::interaction {
@@ -116,9 +117,12 @@ TEST(Tools, ADoubleClickBringsThePlaceToTheMiddleOfTheView) {
 TEST(Tools, TheRulerMeasuresInTheDataUnitsAndBeginsAnew) {
     ToolDesk desk;
     desk.tap(choice_of(ToolKind::ruler));
+    const auto row = std::ranges::find(tool_table(), ToolKind::ruler, &ToolRow::kind);
+    EXPECT_EQ(row->line(desk.settings), "click two places on surfaces");
     const glm::dvec3 a(10, 10, 30), b(40, 50, 30);
     desk.click(desk.in_room(a));
     EXPECT_EQ(desk.settings.ruler.places.size(), 1u);
+    EXPECT_EQ(row->line(desk.settings), "click the other place");
     desk.click(desk.in_room(b));
     ASSERT_EQ(desk.settings.ruler.places.size(), 2u);
     const ToolDrawing drawing = drawing_of(desk.settings, desk.context.data);

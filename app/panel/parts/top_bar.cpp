@@ -71,8 +71,10 @@ void tool_buttons(const PanelModel& model, Commands& commands) {
 
 /// Beside the button that saves a picture: what pictures show.
 void picture_menu(const PanelModel& model, PanelPages& pages, Commands& commands) {
+    constexpr float kDots = 20.0f;
     ImGui::SameLine(0.0f, 0.0f);
-    if (icon_button("picture menu", Icon::menu, "what pictures show, and their size", false, 20.0f))
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (kIconButton - kDots) / 2); // on the line of all
+    if (icon_button("picture menu", Icon::menu, "what pictures show, and their size", false, kDots))
         ImGui::OpenPopup("pictures");
     if (!ImGui::BeginPopup("pictures"))
         return;

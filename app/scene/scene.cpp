@@ -4,7 +4,6 @@
 #include "app/scene/axis_labels.h"
 #include "app/scene/caption.h"
 #include "app/scene/font.h"
-#include "app/scene/legend.h"
 #include "app/scene/look.h"
 #include "app/scene/orientation.h"
 #include "app/scene/overlay_colors.h"
@@ -118,20 +117,6 @@ OverlayColors overlay_of(const Picture& picture) {
     return overlay_colors_on(picture.look.background);
 }
 
-/// What the colors of the ghosts mean: those of the first surface that is seen.
-std::vector<LegendLine> lines_of_ghosts(const Picture& picture) {
-    std::vector<LegendLine> lines;
-    const auto seen = std::ranges::find_if(picture.isosurfaces,
-                                           [](const auto& surface) { return surface.opacity > 0; });
-    for (const ShownGhost& ghost : picture.ghosts)
-        if (seen != picture.isosurfaces.end())
-            lines.push_back(
-                {ghost.colors[static_cast<std::size_t>(seen - picture.isosurfaces.begin())],
-                 fmt::format("step {}, {}", step_number(ghost.surfaces->query.instant),
-                             ghost.earlier ? "earlier" : "later")});
-    return lines;
-}
-
 render::BoxLines box_in(const render::View& view, const Picture& picture,
                         const render::Placement& placement) {
     const glm::vec4 eye(view.eye_in_room(), 1.0f);
@@ -144,6 +129,19 @@ render::BoxLines box_in(const render::View& view, const Picture& picture,
 }
 
 } // namespace
+
+std::vector<LegendLine> lines_of_ghosts(const Picture& picture) {
+    std::vector<LegendLine> lines;
+    const auto seen = std::ranges::find_if(picture.isosurfaces,
+                                           [](const auto& surface) { return surface.opacity > 0; });
+    for (const ShownGhost& ghost : picture.ghosts)
+        if (seen != picture.isosurfaces.end())
+            lines.push_back(
+                {ghost.colors[static_cast<std::size_t>(seen - picture.isosurfaces.begin())],
+                 fmt::format("step {}, {}", step_number(ghost.surfaces->query.instant),
+                             ghost.earlier ? "earlier" : "later")});
+    return lines;
+}
 
 Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config)
     : gl_(gl), info_(info), configured_(config.rendering.appearance), cells_(gl, info.grid, config),

@@ -73,9 +73,12 @@ void tool_buttons(const PanelModel& model, Commands& commands) {
 void picture_menu(const PanelModel& model, PanelPages& pages, Commands& commands) {
     constexpr float kDots = 20.0f;
     ImGui::SameLine(0.0f, 0.0f);
-    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (kIconButton - kDots) / 2); // on the line of all
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::SetCursorScreenPos({corner.x, corner.y + (kIconButton - kDots) / 2});
     if (icon_button("picture menu", Icon::menu, "what pictures show, and their size", false, kDots))
         ImGui::OpenPopup("pictures");
+    ImGui::SetCursorScreenPos({corner.x + kDots, corner.y}); // the line of all icons goes on
+    ImGui::Dummy({0.0f, kIconButton});
     if (!ImGui::BeginPopup("pictures"))
         return;
     popup_title("What pictures show");

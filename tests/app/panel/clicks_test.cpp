@@ -85,6 +85,9 @@ TEST_F(Clicks, MeetEachIconOfTheTopBarAsFarAboveItsMiddleAsBelow) {
     const std::vector<float> above = menus_along(middle - 8);
     EXPECT_GE(above.size(), 2u);
     EXPECT_EQ(menus_along(middle + 8), above);
+    click({layout.top.high.x - 20, middle - 12}); // the last icon of the line
+    frame();
+    EXPECT_NE(ImGui::FindWindowByName("Keys, mouse and devices (F1)###help"), nullptr);
 }
 
 TEST_F(Clicks, TwoLeadToAClipPlaneAcrossX) {

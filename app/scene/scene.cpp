@@ -405,6 +405,8 @@ float Scene::warm_up(const Picture& picture, std::span<const render::View> views
 }
 
 std::size_t Scene::work(const Picture& picture, std::size_t views) {
+    if (!picture.surfaces)
+        return 0;
     return cell_pass_.work(views, cells_.drawn(), cells_.footprint_for(picture),
                            appearance_of(picture));
 }
@@ -412,7 +414,8 @@ std::size_t Scene::work(const Picture& picture, std::size_t views) {
 std::size_t Scene::prepare_parts(const Picture& picture, std::size_t most) {
     // Computing the corners of so many cells takes about as long as drawing one cell.
     constexpr std::size_t kCorners = 8;
-    if (!render::CellPass::needs_corners(cells_.drawn(), cells_.footprint_for(picture),
+    if (!picture.surfaces ||
+        !render::CellPass::needs_corners(cells_.drawn(), cells_.footprint_for(picture),
                                          appearance_of(picture)))
         return 0;
     const std::size_t cells = cells_.compute_corners(kCorners * most);

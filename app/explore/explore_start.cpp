@@ -51,9 +51,13 @@ void refuse_to_replace_part_of(const std::filesystem::path& recording) {
 
 } // namespace
 
+std::size_t first_array(const index::IndexFile& file) {
+    return has_surfaces(file.array(0).stats()) ? 0 : next_with_surfaces(file, 0).value_or(0);
+}
+
 std::size_t first_array(const ExploreOptions& options, const index::IndexFile& file) {
-    if (!names_array(options) && !has_surfaces(file.array(0).stats()))
-        return next_with_surfaces(file, 0).value_or(0);
+    if (!names_array(options))
+        return first_array(file);
     // An index has the array that it was made for as its first.
     const auto& arrays = options.sources.arrays;
     const bool made_before = options.data_name == *options.data;

@@ -34,6 +34,8 @@ void check_outputs(const ExploreOptions& options, const ClusterJob& job,
 /// keyboard play the head and the configuration asks for that.
 ExplorerState filling_window(Session& session, const Config& config, const index::SeriesInfo& info);
 
+/// The number of the array to begin with where nobody names one: the first that has surfaces.
+std::size_t first_array(const index::IndexFile& file);
 /// The number of the array to begin with: the one that the options name, else the first that has
 /// surfaces.
 std::size_t first_array(const ExploreOptions& options, const index::IndexFile& file);

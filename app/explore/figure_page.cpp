@@ -61,6 +61,7 @@ struct DrawnPanel {
     std::string length_unit, title, value_unit;
     std::optional<ColorScale> scale;
     std::vector<interaction::Isosurface> surfaces;
+    std::vector<LegendLine> ghosts; ///< by time
     std::string drawn_with, data_hash;
 };
 
@@ -104,8 +105,11 @@ class PanelDrawing {
         const std::size_t steps = file.info().steps();
         ExplorerState state = session.state();
         fill_picture(session, config, file.info(), state);
+        const std::size_t first = first_array(file);
+        if (first > 0)
+            state.apply(session.way_to_array(first), steps);
         if (!config.between)
-            state.between = advised_between(file);
+            state.between = advised_between(file.array(first));
         const auto expect_fits = [&](const interaction::Commands& commands, const char* what) {
             std::vector<std::string> refused = state.refusals(commands, steps);
             if (commands.array)
@@ -122,6 +126,10 @@ class PanelDrawing {
             expect_fits(*panel_.state, "the session");
             state.resume(*panel_.state, steps);
         }
+        // Another array comes with isovalues of its own, which the panel may say otherwise.
+        if (const auto array = file.array_called(panel_.key.array.value_or(state.array));
+            panel_.key.array && array && *panel_.key.array != state.array)
+            state.apply(session.way_to_array(*array), steps);
         interaction::Settings shown = state;
         interaction::show_key(panel_.key, shown);
         const interaction::Commands way = interaction::changes(state, shown);
@@ -177,6 +185,7 @@ class PanelDrawing {
             session.outputs().display().views_in_window(viewers);
         drawn.data_hash = note.data_hash;
         drawn.surfaces = state.isosurfaces;
+        drawn.ghosts = session.ghost_lines();
         drawn.scale = session.scale();
         drawn.length_unit = info.length_unit;
         drawn.value_unit = info.value_unit;
@@ -326,7 +335,8 @@ class FigureLayout {
     /// What the legend takes beside the picture [mm].
     struct LegendRoom {
         std::vector<ScaleTick> ticks{};
-        std::vector<std::string> surfaces{};
+        std::vector<LegendLine> lines{}; ///< surfaces, then ghosts, the latest first
+        std::size_t uncolored = 0;       ///< so many of them, as the scale has the colors
         double width = 0;
     };
     LegendRoom legend_of(const FigurePanel& panel, const DrawnPanel& drawn) const {
@@ -342,11 +352,14 @@ class FigureLayout {
             widest = std::max(widest, width_of(drawn.scale->title) - 1.9 * size_);
         }
         if (drawn.surfaces.size() > 1)
-            for (const interaction::Isosurface& surface : drawn.surfaces) {
-                room.surfaces.push_back(with_unit(surface.isovalue, drawn.value_unit));
-                widest = std::max(widest, width_of(room.surfaces.back()));
-            }
-        if (!room.ticks.empty() || !room.surfaces.empty())
+            for (const interaction::Isosurface& surface : drawn.surfaces)
+                room.lines.push_back(
+                    {surface.color, with_unit(surface.isovalue, drawn.value_unit)});
+        room.uncolored = drawn.scale ? room.lines.size() : 0;
+        room.lines.insert(room.lines.end(), drawn.ghosts.rbegin(), drawn.ghosts.rend());
+        for (const LegendLine& line : room.lines)
+            widest = std::max(widest, width_of(line.words));
+        if (!room.ticks.empty() || !room.lines.empty())
             room.width = widest + 3 * size_;
         return room;
     }
@@ -441,7 +454,7 @@ class FigureLayout {
                                     .text = drawn.scale->title,
                                     .points = figure_.font_size});
             y += line_height() + size_;
-            const double used = static_cast<double>(legend.surfaces.size()) * line_height();
+            const double used = static_cast<double>(legend.lines.size()) * line_height();
             const double high =
                 std::clamp(height - 3.5 * line_height() - used, 3 * size_, 22 * size_);
             page().pictures.push_back({{at.x, y}, {bar, high}, bar_image(*drawn.scale)});
@@ -457,14 +470,14 @@ class FigureLayout {
             }
             y += high + line_height();
         }
-        for (std::size_t i = 0; i < legend.surfaces.size(); ++i) {
-            if (!drawn.scale) {
+        for (std::size_t i = 0; i < legend.lines.size(); ++i) {
+            if (i >= legend.uncolored) {
                 const glm::dvec2 patch(at.x, y + 0.15 * size_), side(bar, 0.9 * size_);
-                page().areas.push_back({patch, side, glm::dvec3(drawn.surfaces[i].color)});
+                page().areas.push_back({patch, side, glm::dvec3(legend.lines[i].color)});
                 outline(patch, side);
             }
             page().texts.push_back({.at = {at.x + bar + 0.7 * size_, y + 0.6 * size_},
-                                    .text = legend.surfaces[i],
+                                    .text = legend.lines[i].words,
                                     .points = figure_.font_size,
                                     .anchor = {0, 0.5}});
             y += line_height();

@@ -102,12 +102,15 @@ interaction::Recording steps_seen(Session& session, const Config& config,
     const index::SeriesInfo& info = file.info();
     ExplorerState start = session.state();
     fill_picture(session, config, info, start);
+    const std::size_t array = first_array(file);
+    if (array > 0)
+        start.apply(session.way_to_array(array), info.steps());
     if (movie.isovalue)
         start.set_isovalue(*movie.isovalue);
     if (movie.between)
         start.between = *interaction::value_named<interaction::BetweenSteps>(*movie.between);
     else if (!config.between)
-        start.between = advised_between(file);
+        start.between = advised_between(file.array(array));
     session.set_state(start);
     interaction::Recording recording;
     if (movie.turns() || !movie.keys.empty()) {

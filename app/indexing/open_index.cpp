@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace isochron::app {
 namespace {
 
@@ -78,7 +80,14 @@ std::size_t array_on_surface(const index::IndexFile& file, const std::string& na
 
 void warn_beyond(double isovalue, const index::IndexFile& file) {
     const index::IndexStats& stats = file.stats();
-    if (isovalue < stats.low || isovalue > stats.high)
+    const bool has_values =
+        std::ranges::any_of(stats.histogram, [](auto count) { return count > 0; });
+    if (has_values && stats.low == stats.high && isovalue != stats.low)
+        print_note(
+            "isovalue {} has no surface: {} is {} everywhere; `isochron info` lists all arrays",
+            human_number(isovalue), file.info().array,
+            with_unit(stats.low, file.info().value_unit));
+    else if (isovalue < stats.low || isovalue > stats.high)
         print_note("isovalue {} lies beyond the data, {} to {}{}", human_number(isovalue),
                    human_number(stats.low), human_number(stats.high),
                    with_space(file.info().value_unit));

@@ -1093,7 +1093,7 @@ void add_pictures(Lines& lines) {
             {.name = fmt::format("picture_background={}", name),
              .words = fmt::format(
                  "background of pictures that are saved: {}",
-                 background == interaction::WrittenBackground::shown ? "as in the window" : name),
+                 background == interaction::WrittenBackground::shown ? "as set in View" : name),
              .value = now.background == background ? "on" : "",
              .commands =
                  changed([=](WrittenPictures& pictures) { pictures.background = background; })});

@@ -137,6 +137,14 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     keep_promise(report, how);
     if (changed)
         changed_at_ = report.time;
+    // Where slices stand alone, no cell is drawn: nothing is to be measured or to become finer.
+    if (how == Choosing::with_parts && state.slices.hides_surfaces()) {
+        resting_.reset();
+        report.budget = steady_.budget();
+        return {.footprint = render::kBestFootprint,
+                .reason = QualityReason::fits,
+                .state = PictureState::drawn(true, false)};
+    }
     const bool still = report.time - changed_at_ >= kStillAfter;
     QualityInput input;
     input.pace = report.pace;

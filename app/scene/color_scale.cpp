@@ -131,6 +131,8 @@ double share_on(const ColorScale& scale, double value) {
 
 std::vector<ScaleTick> ticks_on(const ColorScale& scale, int most) {
     const auto [low, high] = scale.range;
+    if (low == high && scale.dates_of.empty())
+        return {{0.0, fmt::format("{:.6g}", low)}};
     const Ticks ticks =
         scale.logarithmic ? logarithmic_ticks(low, high, most) : nice_ticks(low, high, most);
     std::vector<ScaleTick> all;

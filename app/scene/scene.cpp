@@ -4,7 +4,6 @@
 #include "app/scene/axis_labels.h"
 #include "app/scene/caption.h"
 #include "app/scene/font.h"
-#include "app/scene/legend.h"
 #include "app/scene/look.h"
 #include "app/scene/orientation.h"
 #include "app/scene/overlay_colors.h"
@@ -118,20 +117,6 @@ OverlayColors overlay_of(const Picture& picture) {
     return overlay_colors_on(picture.look.background);
 }
 
-/// What the colors of the ghosts mean: those of the first surface that is seen.
-std::vector<LegendLine> lines_of_ghosts(const Picture& picture) {
-    std::vector<LegendLine> lines;
-    const auto seen = std::ranges::find_if(picture.isosurfaces,
-                                           [](const auto& surface) { return surface.opacity > 0; });
-    for (const ShownGhost& ghost : picture.ghosts)
-        if (seen != picture.isosurfaces.end())
-            lines.push_back(
-                {ghost.colors[static_cast<std::size_t>(seen - picture.isosurfaces.begin())],
-                 fmt::format("step {}, {}", step_number(ghost.surfaces->query.instant),
-                             ghost.earlier ? "earlier" : "later")});
-    return lines;
-}
-
 render::BoxLines box_in(const render::View& view, const Picture& picture,
                         const render::Placement& placement) {
     const glm::vec4 eye(view.eye_in_room(), 1.0f);
@@ -144,6 +129,19 @@ render::BoxLines box_in(const render::View& view, const Picture& picture,
 }
 
 } // namespace
+
+std::vector<LegendLine> lines_of_ghosts(const Picture& picture) {
+    std::vector<LegendLine> lines;
+    const auto seen = std::ranges::find_if(picture.isosurfaces,
+                                           [](const auto& surface) { return surface.opacity > 0; });
+    for (const ShownGhost& ghost : picture.ghosts)
+        if (seen != picture.isosurfaces.end())
+            lines.push_back(
+                {ghost.colors[static_cast<std::size_t>(seen - picture.isosurfaces.begin())],
+                 fmt::format("step {}, {}", step_number(ghost.surfaces->query.instant),
+                             ghost.earlier ? "earlier" : "later")});
+    return lines;
+}
 
 Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config)
     : gl_(gl), info_(info), configured_(config.rendering.appearance), cells_(gl, info.grid, config),
@@ -407,6 +405,8 @@ float Scene::warm_up(const Picture& picture, std::span<const render::View> views
 }
 
 std::size_t Scene::work(const Picture& picture, std::size_t views) {
+    if (!picture.surfaces)
+        return 0;
     return cell_pass_.work(views, cells_.drawn(), cells_.footprint_for(picture),
                            appearance_of(picture));
 }
@@ -414,7 +414,8 @@ std::size_t Scene::work(const Picture& picture, std::size_t views) {
 std::size_t Scene::prepare_parts(const Picture& picture, std::size_t most) {
     // Computing the corners of so many cells takes about as long as drawing one cell.
     constexpr std::size_t kCorners = 8;
-    if (!render::CellPass::needs_corners(cells_.drawn(), cells_.footprint_for(picture),
+    if (!picture.surfaces ||
+        !render::CellPass::needs_corners(cells_.drawn(), cells_.footprint_for(picture),
                                          appearance_of(picture)))
         return 0;
     const std::size_t cells = cells_.compute_corners(kCorners * most);

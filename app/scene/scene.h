@@ -11,6 +11,7 @@
 #include "app/scene/cell_sets.h"
 #include "app/scene/cell_warm_up.h"
 #include "app/scene/cells_picture.h"
+#include "app/scene/legend.h"
 #include "app/scene/moving_cells.h"
 #include "app/scene/orientation.h"
 #include "app/scene/picture.h"
@@ -43,6 +44,9 @@ struct ScenePart {
     bool ends = true;   ///< what comes after the cells
     bool keeps = false; ///< its cells are kept, for pictures that differ in what lies over them
 };
+
+/// What the colors of the ghosts mean, by time: those of the first surface that is seen.
+std::vector<LegendLine> lines_of_ghosts(const Picture& picture);
 
 /// What it draws depends on the picture alone, and on the cells that `cells()` shows.
 class Scene {

@@ -359,8 +359,9 @@ void Session::draw_anew(const Frame& frame, const Picture& now, const Outputs::O
     outputs_.show_aside(now.layout.aside);
     if (plan_.state.is_trial())
         scene_.forget_cells();
-    // What is only drawn over kept cells tells nothing of what cells take.
-    const bool cells = !scene_.keeps_cells(*drawn_, outputs_.viewports(now.audience));
+    // What is only drawn over kept cells, or without cells, tells nothing of what cells take.
+    const bool cells =
+        drawn_->surfaces && !scene_.keeps_cells(*drawn_, outputs_.viewports(now.audience));
     if (cells)
         choice_.quality().begin(log_.next());
     const bool keeps = supply_.keeps_cells(frame, *drawn_);

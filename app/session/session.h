@@ -181,6 +181,10 @@ class Session {
     void set_awaited(bool awaited) { awaited_ = awaited; }
     /// Scale of all colors.
     std::optional<ColorScale> scale() const { return pictures_.scale(state_); }
+    /// What the legend of the last picture says of its ghosts, by time.
+    std::vector<LegendLine> ghost_lines() const {
+        return drawn_ ? lines_of_ghosts(*drawn_) : std::vector<LegendLine>();
+    }
 
     /// The files of triangles beside the surfaces, and which may be opened.
     ModelSupply& models() { return models_; }

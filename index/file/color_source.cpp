@@ -75,7 +75,14 @@ std::size_t color_source_called(const IndexFile& file, std::string_view name,
                                 std::size_t surfaces) {
     if (const auto named = name.empty() ? std::nullopt : color_source_named(file, name))
         return *named;
-    return !values_alone_of(file) && surfaces == 0 && ColorSource::count(file) > 1 ? 1 : 0;
+    if (values_alone_of(file))
+        return 0;
+    const std::size_t count = ColorSource::count(file), other = surfaces == 0 && count > 1 ? 1 : 0;
+    for (std::size_t number = other; number < count; ++number)
+        if (const ColorArray array = ColorSource(file, number).array();
+            number != surfaces && array.low < array.high)
+            return number;
+    return other;
 }
 
 } // namespace isochron::index

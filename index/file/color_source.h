@@ -46,7 +46,8 @@ std::vector<std::string> color_source_names(const IndexFile& file);
 std::optional<std::size_t> color_source_named(const IndexFile& file, std::string_view name);
 
 /// The number of the array to color by with this name. If there is none, or the name is empty: the
-/// array for colors only, or else the first array that is not the one of the surfaces.
+/// array for colors only, or else the first array that is not the one of the surfaces, if possible one
+/// with more than one value.
 /// @param surfaces number of their array, as `IndexFile::array` takes it
 std::size_t color_source_called(const IndexFile& file, std::string_view name, std::size_t surfaces);
 

@@ -203,7 +203,7 @@ std::vector<KeyLine> all_lines() {
     line("Up Down", "isovalue by 1 % of the range (Shift: 0.1 %)");
     add(isovalue_up, "isovalue_up", 12, {Key::up}, 0, "raise the isovalue");
     add(isovalue_down, "isovalue_down", 13, {Key::down}, 0, "lower the isovalue");
-    line("Page Up, Page Down", "the same");
+    line("Page Up, Page Down", "isovalue, as Up and Down");
     add(isovalue_rise, "isovalue_rise", 14, {Key::page_up}, kHeld);
     add(isovalue_fall, "isovalue_fall", 15, {Key::page_down}, kHeld);
     line("Right Left, or . ,", "one step forward, back (pauses)");

@@ -239,7 +239,7 @@ std::vector<std::string> Controls::take_notes() {
 
 std::vector<ControlGroup> Controls::documentation() {
     const auto line_of = [](std::string_view control, std::string_view effect) {
-        return fmt::format("{:<30}{}", control, effect);
+        return fmt::format("{:<28}  {}", control, effect);
     };
     std::vector<ControlGroup> groups;
     for (const DeviceKind kind :

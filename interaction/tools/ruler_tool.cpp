@@ -120,10 +120,10 @@ ToolDrawing draw_rulers(const Settings& settings, const DataFrame& data) {
 
 std::string ruler_line(const Settings& settings) {
     const Rulers& rulers = settings.rulers;
-    if (!rulers.list.empty() && rulers.list.back().complete())
-        return "ruler";
-    const bool angle = rulers.list.empty() ? rulers.angle : rulers.list.back().angle;
-    return fmt::format("click {} places", angle ? "three" : "two");
+    if (rulers.list.empty())
+        return fmt::format("click {} places", rulers.angle ? "three" : "two");
+    const Ruler& last = rulers.list.back();
+    return last.complete() ? "ruler" : last.angle ? "click the next place" : "click the other place";
 }
 
 std::vector<MarkedRow> ruler_rows(const Commands& commands, const Settings& before) {

@@ -120,6 +120,51 @@ TEST(Pages, DeadLinksAndAnchorsAreFound) {
                                                  "README.md: #two", "docs/a.md: README.md"}));
 }
 
+/// Rows of tables that stand apart from a table: an empty line above makes text of them.
+Findings stray_rows(const std::filesystem::path& root) {
+    static const std::regex kRule(R"(\|[-|: ]+\|)");
+    Findings stray;
+    for (const std::string& page : pages_of(root)) {
+        std::istringstream lines(lines_of_page(text_of_page(root / page), false));
+        std::string before, line;
+        for (bool first = false; std::getline(lines, line); before = line) {
+            if (first && !std::regex_match(line, kRule))
+                stray.push_back(page + ": " + before);
+            first = line.starts_with('|') && !before.starts_with('|');
+        }
+    }
+    return stray;
+}
+
+TEST(Pages, NoRowStandsApartFromItsTable) {
+    EXPECT_EQ(stray_rows(checkout()), Findings{});
+    const PlantedTree tree;
+    tree.plant("README.md", "| a | b |\n|---|---|\n| c | d |\n\n| e | f |\n\n```\n| g |\n```\n");
+    EXPECT_EQ(stray_rows(tree.root()), Findings{"README.md: | e | f |"});
+}
+
+/// Lines of text that begin as an earlier line of their page does: what a merge leaves twice.
+Findings lines_twice(const std::filesystem::path& root) {
+    Findings twice;
+    for (const std::string& page : pages_of(root)) {
+        std::istringstream lines(lines_of_page(text_of_page(root / page), false));
+        std::set<std::string> begun;
+        for (std::string line; std::getline(lines, line);)
+            if (line.size() >= 50 && page != "docs/RESULTS.md" &&
+                !begun.insert(line.substr(0, 50)).second)
+                twice.push_back(page + ": " + line.substr(0, 50));
+    }
+    return twice;
+}
+
+TEST(Pages, NoLineStandsTwiceOnOne) {
+    EXPECT_EQ(lines_twice(checkout()), Findings{});
+    const PlantedTree tree;
+    const std::string line = "- Slices show the values on up to three planes as colors";
+    tree.plant("CHANGELOG.md", line + ".\n- Short.\n- Short.\n" + line + ", with a legend.\n");
+    EXPECT_EQ(lines_twice(tree.root()), Findings{"CHANGELOG.md: " + line.substr(0, 50)});
+}
+
 TEST(Pages, LinksLeadSomewhereWhereTheyAreInstalled) {
     const std::string rules = text_of_page(checkout() / "cmake/install.cmake");
     static const std::regex kFiles(

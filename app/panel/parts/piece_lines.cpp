@@ -80,7 +80,7 @@ void piece_row(const PanelModel& model, const PieceList& list, const index::Meas
     piece_cell(grouped(piece.cells));
     piece_cell(fmt::format("{:.4g}", piece.area));
     piece_cell(std::isnan(piece.volume) ? "-" : fmt::format("{:.4g}", piece.volume));
-    piece_cell(piece.closed ? "closed" : "open");
+    piece_cell(piece.closed ? "yes" : "no");
 }
 
 /// The order that the user chose by the columns' heads.
@@ -134,9 +134,12 @@ void list_of_pieces(const PanelModel& model, PanelPages& pages, Commands& comman
         note("measuring ...", color_of(Ink::dim));
     } else {
         const std::size_t rest = list->pieces - list->rows.size();
-        note(rest == 0 ? fmt::format("{} pieces", grouped(list->pieces))
-                       : fmt::format("{} pieces; {} more, of {} cells", grouped(list->pieces),
-                                     grouped(rest), grouped(list->other_cells)),
+        const std::string& unit = model.info.length_unit;
+        note(fmt::format("{} piece{}", grouped(list->pieces), list->pieces == 1 ? "" : "s") +
+                 (rest == 0 ? ""
+                            : fmt::format("; {} more, of {} cells", grouped(rest),
+                                          grouped(list->other_cells))) +
+                 (unit.empty() ? "" : fmt::format("; areas in {}^2, volumes in {}^3", unit, unit)),
              color_of(Ink::dim));
         ImGui::SameLine();
         if (ImGui::Button("copy as CSV"))

@@ -138,9 +138,8 @@ void line_on_isovalues(const PanelModel& model) {
         return text(" ");
     const bool through =
         std::ranges::any_of(surfaces, [](const Isosurface& each) { return each.opacity < 1.0f; });
-    fitted_text(through ? "lower values: outside, translucent"
-                        : "lower values: outside, hiding others",
-                width, color_of(Ink::dim));
+    fitted_text(through ? "lower values lie outside" : "lower values hide others", width,
+                color_of(Ink::dim));
 }
 
 void remove(std::uint32_t removed, std::vector<Isosurface>& surfaces, const ExplorerState& state,

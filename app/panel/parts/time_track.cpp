@@ -54,11 +54,37 @@ struct Track {
     float end_of(const StepRange& range) const { return left_of(last_of(range, steps) + 1); }
 };
 
+/// Decimals of a number before its unit; empty: the text is no plain number, such as a date.
+std::optional<std::size_t> decimals_of(const std::string& text) {
+    const std::string number = text.substr(0, text.find(' '));
+    if (number.empty() || number.find_first_not_of("-.0123456789") != number.npos ||
+        number.find('-', 1) != number.npos)
+        return std::nullopt;
+    const std::size_t point = number.find('.');
+    return point == number.npos ? 0 : number.size() - point - 1;
+}
+
+/// The text with as many decimals as those beside it, if it is a plain number.
+std::string with_decimals(std::string text, std::size_t decimals) {
+    const auto own = decimals_of(text);
+    if (own && *own < decimals)
+        text.insert(std::min(text.find(' '), text.size()),
+                    (*own == 0 ? "." : "") + std::string(decimals - *own, '0'));
+    return text;
+}
+
 /// Texts of some steps below the track, as many as fit.
 void times_below(const Track& track, const PanelModel& model) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
+    std::size_t decimals = 0;
+    const auto text_of = [&](std::uint32_t step) {
+        return with_decimals(time_of(model, index::Instant(step)), decimals);
+    };
+    constexpr std::uint32_t kRead = 16; // as even times have the most decimals early
+    for (std::uint32_t step = 0; step < std::min(track.steps, kRead); ++step)
+        decimals = std::max(decimals, decimals_of(text_of(step)).value_or(0));
     const auto width_of = [&](std::uint32_t step) {
-        return ImGui::CalcTextSize(time_of(model, index::Instant(step)).c_str()).x;
+        return ImGui::CalcTextSize(text_of(step).c_str()).x;
     };
     constexpr float kGap = 18.0f;
     const float widest = std::max(width_of(0), width_of(track.steps - 1));
@@ -72,7 +98,7 @@ void times_below(const Track& track, const PanelModel& model) {
         every *= 2;
     float taken = track.low.x - 1.0f;
     for (std::uint32_t step = 0; step < track.steps; step += every) {
-        const std::string text = time_of(model, index::Instant(step));
+        const std::string text = text_of(step);
         const float width = ImGui::CalcTextSize(text.c_str()).x, middle = track.middle_of(step);
         list.AddLine({middle, track.high.y}, {middle, track.high.y + 3.0f}, packed(Ink::dim));
         const float left = std::clamp(middle - width / 2, track.low.x,

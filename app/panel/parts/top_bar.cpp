@@ -73,9 +73,14 @@ void tool_buttons(const PanelModel& model, Commands& commands) {
 
 /// Beside the button that saves a picture: what pictures show.
 void picture_menu(const PanelModel& model, PanelPages& pages, Commands& commands) {
+    constexpr float kDots = 20.0f;
     ImGui::SameLine(0.0f, 0.0f);
-    if (icon_button("picture menu", Icon::menu, "what pictures show, and their size", false, 20.0f))
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::SetCursorScreenPos({corner.x, corner.y + (kIconButton - kDots) / 2});
+    if (icon_button("picture menu", Icon::menu, "what pictures show, and their size", false, kDots))
         ImGui::OpenPopup("pictures");
+    ImGui::SetCursorScreenPos({corner.x + kDots, corner.y}); // the line of all icons goes on
+    ImGui::Dummy({0.0f, kIconButton});
     if (!ImGui::BeginPopup("pictures"))
         return;
     popup_title("What pictures show");

@@ -59,12 +59,13 @@ void size_rows(WrittenPictures& pictures) {
 }
 
 void background_row(WrittenPictures& pictures) {
-    static const std::vector<std::string> kWords{"as in the window", "white", "transparent"};
+    static const std::vector<std::string> kWords{"as set in View", "white", "transparent"};
     row("background");
     ImGui::SetNextItemWidth(kField);
-    if (const auto chosen =
-            choice_field("##background", kWords[static_cast<std::size_t>(pictures.background)],
-                         kWords, "behind the data; words and lines on white are dark"))
+    if (const auto chosen = choice_field(
+            "##background", kWords[static_cast<std::size_t>(pictures.background)], kWords,
+            "behind the data; words and lines on white are dark. Where the window lifts "
+            "a dark background (Ctrl + G), pictures keep the dark one"))
         pictures.background = static_cast<interaction::WrittenBackground>(*chosen);
 }
 

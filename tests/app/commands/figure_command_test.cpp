@@ -1,8 +1,10 @@
 // A figure has its words as text, in the sizes that its file says, and is made again.
 #include "tests/support/session_fixture.h"
 
+#include "index/indexing/index_build.h"
 #include "stereo/image_file.h"
 #include "tests/support/child_process.h"
+#include "tests/support/memory_series.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -116,6 +118,54 @@ TEST_F(FigureCommand, OfPixelsHasAsManyAsItsResolutionSays) {
     }
     EXPECT_THAT(tool("file f.png").out,
                 HasSubstr(fmt::format("{} x", std::lround(120 / 25.4 * 150))));
+}
+
+/// An index as simulations have them: its first array has one value everywhere.
+void build_with_still_first(const std::filesystem::path& path) {
+    const auto named = [](const char* name, const index::TestField& field) {
+        auto series = std::make_unique<index::MemorySeries>(field.view());
+        series->info().array = name;
+        return series;
+    };
+    const std::array<std::uint32_t, 3> shape{12, 10, 8};
+    const index::TestField still(shape, 3, index::ValueType::f32,
+                                 [](double, double, double, double) { return 1.2; });
+    const index::TestField heat(shape, 3, index::ValueType::f32,
+                                [](double x, double, double, double t) { return 300 + x + t; });
+    const index::TestField load(shape, 3, index::ValueType::f32,
+                                [](double, double y, double, double) { return 9000 + y; });
+    const auto first = named("density", still), second = named("heat", heat),
+               third = named("load", load);
+    index::BuildOptions options;
+    options.further = {{.series = second.get(), .array = "heat"},
+                       {.series = third.get(), .array = "load"}};
+    index::build_index(*first, path, options);
+}
+
+TEST_F(FigureCommand, ShowsTheFirstArrayWithASurfaceAndOfEachArrayItsOwnIsovalue) {
+    build_with_still_first(folder_.path() / "run.isochron");
+    folder_.write("f.toml", "width = 120\ndpi = 72\n[[panels]]\nindex = \"run.isochron\"\n"
+                            "[[panels]]\nindex = \"run.isochron\"\narray = \"load\"\n");
+    ASSERT_EQ(isochron({"figure", "f.toml", "-o", "f.pdf"}).status, 0);
+    const std::string words = tool("pdftotext -raw f.pdf -").out;
+    EXPECT_THAT(words, testing::ContainsRegex("heat, isovalue 3[01][0-9]"));
+    EXPECT_THAT(words, testing::ContainsRegex("load, isovalue 90[01][0-9]"));
+    EXPECT_THAT(isochron({"query", "run.isochron", "--isovalue", "0.5", "--step", "0"}).err,
+                HasSubstr("isovalue 0.5 has no surface: density is 1.2 everywhere"));
+    // A film begins with that array, too.
+    ASSERT_EQ(isochron({"movie", "run.isochron", "--film", "turn", "-o", "turn.jsonl"}).status, 0);
+    EXPECT_THAT(folder_.read("turn.jsonl"), HasSubstr("\"array\":\"heat\""));
+}
+
+TEST_F(FigureCommand, NamesTheStepsOfItsGhosts) {
+    folder_.write("k.json",
+                  R"({"format": "isochron keys", "version": 1, "keys": [{"time": 0, "step": 3,
+        "ghosts": {"earlier": 1, "later": 1, "every": 2, "opacity": 0.5}}]})");
+    folder_.write("f.toml", "width = 80\ndpi = 72\n[[panels]]\nindex = \"sphere.isochron\"\n"
+                            "keys = \"k.json\"\nkey = 1\n");
+    ASSERT_EQ(isochron({"figure", "f.toml", "-o", "f.pdf"}).status, 0);
+    const std::string words = tool("pdftotext -layout f.pdf -").out;
+    EXPECT_THAT(words, testing::ContainsRegex("step 6, later[^z]*step 2, earlier"));
 }
 
 TEST_F(FigureCommand, IsMadeAgainAndSaysWhatDiffers) {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +65,29 @@ TEST_F(Clicks, OneLeadsToTheNextStepASecondSurfaceAndAPicture) {
     }));
     EXPECT_TRUE(one_click({0, 18}, {400, 18},
                           [](const Commands& commands) { return commands.screenshot; }));
+}
+
+TEST_F(Clicks, MeetEachIconOfTheTopBarAsFarAboveItsMiddleAsBelow) {
+    frame();
+    const PanelLayout layout = layer_.layout();
+    const auto menus_along = [&](float y) {
+        std::vector<float> places;
+        for (float x = 20; x < layout.top.high.x / 2; x += 8) {
+            click({x, y});
+            if (ImGui::GetCurrentContext()->OpenPopupStack.Size > 0)
+                places.push_back(x);
+            press(Key::escape);
+            press(Key::escape);
+        }
+        return places;
+    };
+    const float middle = (layout.top.low.y + layout.top.high.y) / 2;
+    const std::vector<float> above = menus_along(middle - 8);
+    EXPECT_GE(above.size(), 2u);
+    EXPECT_EQ(menus_along(middle + 8), above);
+    click({layout.top.high.x - 20, middle - 12}); // the last icon of the line
+    frame();
+    EXPECT_NE(ImGui::FindWindowByName("Keys, mouse and devices (F1)###help"), nullptr);
 }
 
 TEST_F(Clicks, TwoLeadToAClipPlaneAcrossX) {

@@ -80,6 +80,18 @@ TEST_F(TimeTrack, HasATickAtEachTrueStepWhereStepsAreBlended) {
     EXPECT_THAT(ticks(), testing::IsEmpty());
 }
 
+TEST_F(TimeTrack, NumbersHaveAsManyDecimalsAsThoseBesideThem) {
+    for (const char* const unit : {"", "s"}) {
+        info_.time_unit = unit;
+        info_.times.assign({0, 0.03, 0.06, 0.1});
+        for (int i = 0; i < 2; ++i)
+            frame();
+        const std::string after = *unit ? std::string(" ") + unit : "";
+        EXPECT_TRUE(says("0.03" + after) && says("0.10" + after)) << unit;
+        EXPECT_FALSE(says("0.1" + after)) << unit;
+    }
+}
+
 TEST_F(TimeTrack, HasFewerTicksWhereStepsLieClose) {
     info_.times.resize(100'000);
     asked_.between = BetweenSteps::blend;

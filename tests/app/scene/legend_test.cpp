@@ -122,6 +122,14 @@ TEST(ColorScales, GoByLogarithmsWhereValuesAreAboveZero) {
         EXPECT_NEAR(share_on(scale, std::pow(10.0, decade)), (decade + 1) / 4.0, 1e-9);
 }
 
+TEST(ColorScales, OfOneValueSayIt) {
+    const std::vector<ScaleTick> ticks = ticks_on(
+        {.title = "", .range = {1.2, 1.2}, .whole = {1.2, 1.2}, .colors = {}, .use = {}}, 6);
+    ASSERT_EQ(ticks.size(), 1u);
+    EXPECT_EQ(ticks.front().words, "1.2");
+    EXPECT_EQ(ticks.front().share, 0.0) << "where a map has the color of the only value";
+}
+
 TEST(ColorScales, SharesOfWhatIsShownMakeARange) {
     index::Extraction shown;
     EXPECT_FALSE(range_of_shares(shown, {0, 1}, {0.02, 0.98}));

@@ -242,6 +242,23 @@ TEST_P(Parts, AreNotMadeWithoutABudgetAtRestNorInFastAndPaperModeNorInAReplay) {
     EXPECT_EQ(session.log().frames().back().footprint, Footprint::surface);
 }
 
+TEST_P(Parts, AreNotMadeOfSurfacesThatSlicesHide) {
+    Session session(partial(StereoMode::mono), file_, *context_);
+    start(session);
+    Commands slices;
+    slices.slices = interaction::Slices{.planes = {{}}, .alone = true};
+    frame(session, slices);
+    int in_parts = 0;
+    EXPECT_TRUE(rests_until(session, [&](const FrameReport& report) {
+        in_parts += report.in_parts.has_value();
+        return report.final && report.footprint == render::kBestFootprint;
+    }));
+    EXPECT_EQ(in_parts, 0);
+    slices.slices->alone = false;
+    frame(session, slices);
+    EXPECT_TRUE(begin_parts(session)) << "the surfaces are back";
+}
+
 TEST_P(Parts, GiveTheWholePictureInEveryViewport) {
     Config config = partial();
     std::vector<stereo::Viewport>& viewports = config.installation.windows.front().viewports;

@@ -223,6 +223,16 @@ TEST_F(IndexArrays, WithAChangedSourceAreNotAppendedTo) {
     EXPECT_EQ(read_file(path), before);
 }
 
+TEST_F(IndexArrays, OfOneValueColorNothingAsLongAsAnotherCan) {
+    for (std::size_t step = 0; step < kTimes; ++step)
+        for (std::size_t vertex = 0; vertex < 37 * 18 * 20; ++vertex)
+            speed_.at<std::uint8_t>(step, vertex) = 128;
+    const auto file = IndexFile::open(built("all.isochron"));
+    EXPECT_EQ(color_source_called(*file, "", 0), 2u) << "speed says nothing";
+    EXPECT_EQ(color_source_called(*file, "", 2), 0u);
+    EXPECT_EQ(color_source_called(*file, "speed", 0), 1u) << "as who asks for it wants";
+}
+
 TEST_F(IndexArrays, ColorTheSurfacesOfOthers) {
     const auto file = IndexFile::open(built("all.isochron"));
     ASSERT_EQ(ColorSource::count(*file), 3u);

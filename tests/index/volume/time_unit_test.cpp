@@ -1,4 +1,5 @@
 // Times in other units, from other dates, in every calendar.
+#include "index/volume/instant_text.h"
 #include "index/volume/time_unit.h"
 
 #include <gtest/gtest.h>
@@ -211,6 +212,19 @@ TEST(TimeUnit, TimesAreWrittenAsLongAsTellsThemApart) {
     EXPECT_EQ(time_text(std::array{0.1, 0.2}, 0, "s"), "0.1 s");
     EXPECT_EQ(time_text(std::array{1234567.0, 1234567.5}, 0, ""), "1234567");
     EXPECT_EQ(time_text(std::array{1234567.0, 1234567.5}, 1, ""), "1234568");
+}
+
+TEST(TimeUnit, DatesBetweenStepsAreWrittenAsPeopleWriteThem) {
+    const auto between = [](std::vector<double> times, double share, const std::string& unit) {
+        const auto fraction = static_cast<std::uint32_t>(share * Instant::kFractions);
+        return instant_text(times, {0, fraction}, unit);
+    };
+    const std::string hours = "hours since 1970-01-01 00:00:00";
+    EXPECT_EQ(between({0, 1.0 / 6}, 0.8, hours), "1970-01-01 00:08");
+    EXPECT_EQ(between({0, 1.0 / 6}, 1.0 / 3, hours), "1970-01-01 00:03:20");
+    EXPECT_EQ(between({0, 24}, 1.0 / 3, hours), "1970-01-01 08:00");
+    EXPECT_EQ(between({0, 1}, 1.0 / 3, "s since 1970-01-01"), "1970-01-01 00:00:00.333");
+    EXPECT_EQ(between({0, 1}, 0.5, "s"), "0.5 s") << "no date";
 }
 
 TEST(TimeUnit, CalendarsAreNamedWhereTheyMakeADifference) {

@@ -228,6 +228,10 @@ TEST(Controls, EveryActionHasAKeyAndEveryKeyOneLineOfDocumentation) {
         for (const std::string& line : group.lines) {
             EXPECT_LE(line.size(), 90u);
             EXPECT_EQ(line.find('\n'), std::string::npos);
+            // The help takes them apart at the first two spaces, into control and effect.
+            const std::size_t effect = line.find_first_not_of(' ', line.find("  "));
+            ASSERT_NE(effect, std::string::npos) << line;
+            EXPECT_NE(line.substr(effect), "the same") << line;
         }
     }
     EXPECT_EQ(lines, key_lines().size() + control_lines().size());

@@ -58,9 +58,10 @@ struct DrawnPanel {
     std::vector<PageText> labels;         ///< `at` as above
     std::vector<PageLine> behind, before; ///< the box, with its ticks
     std::optional<ScaleBar> bar;          ///< its pixels are those of the picture
-    std::string length_unit, title, value_unit;
+    std::string length_unit, title;
     std::optional<ColorScale> scale;
     std::vector<interaction::Isosurface> surfaces;
+    std::vector<std::string> surface_words; ///< their isovalues, and arrays if these are other ones
     std::string drawn_with, data_hash;
 };
 
@@ -179,12 +180,15 @@ class PanelDrawing {
         drawn.surfaces = state.isosurfaces;
         drawn.scale = session.scale();
         drawn.length_unit = info.length_unit;
-        drawn.value_unit = info.value_unit;
+        for (std::size_t i = 0; i < state.isosurfaces.size(); ++i) {
+            const interaction::Isosurface& surface = state.isosurfaces[i];
+            const index::SeriesInfo& own = file.array(array_of_surface(state, i, file)).info();
+            drawn.surface_words.push_back((surface.of_shown_array() ? "" : own.array + " ") +
+                                          with_unit(surface.isovalue, own.value_unit));
+        }
         drawn.bar = scale_bar(views.front(), state.room_from_physical, physical_center(info.grid));
-        index::SurfacesQuery shown{.instant = state.shown_instant(), .isovalues = {}};
-        for (const interaction::Isosurface& surface : state.isosurfaces)
-            shown.isovalues.push_back(surface.isovalue);
-        drawn.title = panel_.title.value_or(caption_text(shown, info));
+        const auto further = words_of(shown_further(session.further().shown(), state, file));
+        drawn.title = panel_.title.value_or(caption_text(state.surfaces(), info, further));
         if (panel_.axes)
             add_box(drawn, info, state, viewers.front().head, views, pixels, text, points);
         return drawn;
@@ -342,9 +346,9 @@ class FigureLayout {
             widest = std::max(widest, width_of(drawn.scale->title) - 1.9 * size_);
         }
         if (drawn.surfaces.size() > 1)
-            for (const interaction::Isosurface& surface : drawn.surfaces) {
-                room.surfaces.push_back(with_unit(surface.isovalue, drawn.value_unit));
-                widest = std::max(widest, width_of(room.surfaces.back()));
+            for (const std::string& words : drawn.surface_words) {
+                room.surfaces.push_back(words);
+                widest = std::max(widest, width_of(words));
             }
         if (!room.ticks.empty() || !room.surfaces.empty())
             room.width = widest + 3 * size_;
@@ -458,7 +462,7 @@ class FigureLayout {
             y += high + line_height();
         }
         for (std::size_t i = 0; i < legend.surfaces.size(); ++i) {
-            if (!drawn.scale) {
+            if (!drawn.scale || !drawn.surfaces[i].of_shown_array()) {
                 const glm::dvec2 patch(at.x, y + 0.15 * size_), side(bar, 0.9 * size_);
                 page().areas.push_back({patch, side, glm::dvec3(drawn.surfaces[i].color)});
                 outline(patch, side);

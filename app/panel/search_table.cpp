@@ -560,6 +560,7 @@ void add_surfaces(Lines& lines) {
         if (i != model.arrays.asked && surfaces.size() < interaction::kMostIsosurfaces)
             lines.add({.name = "surface_of_array=" + model.arrays.names[i],
                        .words = "add a surface of another array: " + model.arrays.names[i],
+                       .others = std::string(other_names("surface_of_array")),
                        .commands = with_surface_of(model, i)});
     if (surfaces.size() > 1)
         lines.add({.name = "remove_surface",

@@ -63,25 +63,25 @@ std::vector<std::string> notes_of(const index::IndexFile& file) {
 }
 
 /// Reports the index under the name that was asked for. @param written false: it held every step already
-void report(const fs::path& out, bool written, std::vector<std::string> more_notes) {
-    const auto file = index::IndexFile::open(out);
-    std::vector<std::string> notes = written ? notes_of(*file) : std::vector<std::string>();
+void report(const fs::path& out, const index::IndexFile& file, bool written,
+            const std::vector<std::string>& more_notes) {
+    std::vector<std::string> notes = written ? notes_of(file) : std::vector<std::string>();
     notes.insert(notes.end(), more_notes.begin(), more_notes.end());
     for (const std::string& note : notes)
         print_note("note: {}", note);
     nlohmann::ordered_json arrays = nlohmann::ordered_json::array();
-    for (std::size_t number = 0; number < file->arrays(); ++number)
-        arrays.push_back(array_json(file->array(number)));
+    for (std::size_t number = 0; number < file.arrays(); ++number)
+        arrays.push_back(array_json(file.array(number)));
     tell_result({{"file", out.string()},
                  {"written", written},
-                 {"vertices", std::vector<std::size_t>(file->info().grid.vertices.begin(),
-                                                       file->info().grid.vertices.end())},
-                 {"steps", file->info().steps()},
+                 {"vertices", std::vector<std::size_t>(file.info().grid.vertices.begin(),
+                                                       file.info().grid.vertices.end())},
+                 {"steps", file.info().steps()},
                  {"arrays", arrays},
-                 {"file_bytes", file->stats().file_bytes},
+                 {"file_bytes", file.stats().file_bytes},
                  {"notes", notes}});
     if (written)
-        print_report(summary(out, *file));
+        print_report(summary(out, file));
     else
         print_report("{}: holds every step of these files already\n", out.string());
 }
@@ -141,7 +141,7 @@ void build_with(index::Team& team, const BuildArguments& asked, const Command& c
         print_note("{}", note);
     if (!has_work) {
         if (leads)
-            report(arguments.out, false, {});
+            report(arguments.out, build.index(), false, {});
         return;
     }
     std::string anew;
@@ -156,7 +156,7 @@ void build_with(index::Team& team, const BuildArguments& asked, const Command& c
     if (!anew.empty())
         left_out.insert(left_out.begin(), "written anew: " + anew);
     if (leads)
-        report(arguments.out, true, left_out);
+        report(arguments.out, build.index(), true, left_out);
 }
 
 /// Prints `what` and ends the job. Not all processes know of the error, so none can be waited for.

@@ -67,11 +67,11 @@ std::string AskedBuild::write(const index::Progress& progress) {
     const std::string reason = held_ ? reason_to_rewrite(*held_, options_) : std::string();
     try {
         if (held_ && reason.empty()) {
-            index::append_index(*sources_.volume, *held_, *file_, arguments_.out, options_,
-                                progress, team_);
+            held_ = index::append_index(*sources_.volume, *held_, *file_, arguments_.out, options_,
+                                        progress, team_);
             return {};
         }
-        index::build_index(*sources_.volume, arguments_.out, options_, progress, team_);
+        held_ = index::build_index(*sources_.volume, arguments_.out, options_, progress, team_);
     } catch (const std::bad_alloc&) {
         throw index::Error(
             fmt::format("{}: there is not enough memory to build it", arguments_.out.string()));

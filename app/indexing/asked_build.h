@@ -34,12 +34,14 @@ class AskedBuild {
     /// Appends in place where that can be, else builds anew.
     /// @return why an index was written anew that should grow, or nothing @throws index::Error
     std::string write(const index::Progress& progress);
+    /// The index: after `write` as it was written, before as it was found. On rank 0.
+    const index::IndexFile& index() const { return *held_; }
 
   private:
     BuildArguments arguments_;
     index::Team& team_;
     std::optional<index::GrowingFile> file_;       ///< the index that grows
-    std::shared_ptr<const index::IndexFile> held_; ///< null: it is built anew
+    std::shared_ptr<const index::IndexFile> held_; ///< null: it is built anew, and not written yet
     BuildSources sources_;
     index::BuildOptions options_;
 };

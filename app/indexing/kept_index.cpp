@@ -188,8 +188,7 @@ class KeptBuild {
         const bool small = step_bytes_ * steps_ <= kSmall;
         const std::size_t steps = small ? steps_ : 1;
         Part part(sources_, arguments_, steps);
-        index::build_index(part.volume, path_, part.options, progress_to(steps));
-        held_ = index::IndexFile::open(path_);
+        held_ = index::build_index(part.volume, path_, part.options, progress_to(steps));
         report_held();
     }
 
@@ -210,9 +209,8 @@ class KeptBuild {
         if (steps > held()) {
             Part part(sources_, arguments_, steps);
             const auto team = index::alone();
-            index::append_index(part.volume, *held_, *file, path_, part.options, progress_to(steps),
-                                *team);
-            held_ = index::IndexFile::open(path_);
+            held_ = index::append_index(part.volume, *held_, *file, path_, part.options,
+                                        progress_to(steps), *team);
         }
         report_held();
     }

@@ -25,7 +25,7 @@ NewTarget::NewTarget(Team& team, const std::filesystem::path& target) : team_(te
     });
 }
 
-void NewTarget::commit(const FileHeader& header) {
+void NewTarget::commit(const FileHeader& header, const std::function<void()>& look) {
     team_.together([&] {
         if (team_.rank() == 0)
             file_->write_at(slot_of(header), header_bytes(header));
@@ -33,8 +33,10 @@ void NewTarget::commit(const FileHeader& header) {
             file_->commit();
     });
     team_.together([&] {
-        if (team_.rank() == 0)
-            file_->commit();
+        if (team_.rank() > 0)
+            return;
+        look();
+        file_->commit();
     });
 }
 
@@ -55,7 +57,7 @@ GrowingTarget::~GrowingTarget() {
     }
 }
 
-void GrowingTarget::commit(const FileHeader& header) {
+void GrowingTarget::commit(const FileHeader& header, const std::function<void()>& look) {
     team_.together([&] { file_.flush(); });
     team_.together([&] {
         if (team_.rank() > 0)
@@ -63,6 +65,7 @@ void GrowingTarget::commit(const FileHeader& header) {
         may_count_ = true;
         file_.write_at(slot_of(header), header_bytes(header));
         file_.flush();
+        look();
     });
 }
 

@@ -7,6 +7,7 @@
 #include "index/system/team.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 namespace isochron::index {
@@ -21,7 +22,9 @@ class BuildTarget {
     /// @param name of the index
     virtual std::filesystem::path path_to_read(const std::filesystem::path& name) const = 0;
     /// Makes what was written valid. @param header used from the rank 0 only
-    virtual void commit(const FileHeader& header) = 0;
+    /// @param look called on rank 0 once the header is written. What it throws leaves an older file of
+    /// the name as it was; an index that grows may have grown.
+    virtual void commit(const FileHeader& header, const std::function<void()>& look) = 0;
 };
 
 /// A new file, which rank 0 creates.
@@ -32,7 +35,7 @@ class NewTarget final : public BuildTarget {
     std::filesystem::path path_to_read(const std::filesystem::path& /*name*/) const override {
         return file_->path_to_open();
     }
-    void commit(const FileHeader& header) override;
+    void commit(const FileHeader& header, const std::function<void()>& look) override;
 
   private:
     Team& team_;
@@ -54,7 +57,7 @@ class GrowingTarget final : public BuildTarget {
     std::filesystem::path path_to_read(const std::filesystem::path& name) const override {
         return name;
     }
-    void commit(const FileHeader& header) override;
+    void commit(const FileHeader& header, const std::function<void()>& look) override;
 
   private:
     Team& team_;

@@ -192,10 +192,12 @@ void measure(ArraySections& array, const ByteSource& written, std::uint32_t vers
     }
 }
 
-/// Writes all arrays, then their sections.
-void build_arrays(VolumeSeries& first, const std::filesystem::path& out, const BuildOptions& all,
-                  const Progress& progress, Team& team, BuildTarget& target,
-                  const IndexFile* held) {
+/// Writes all arrays, then their sections. @return what was written, on rank 0
+std::shared_ptr<const IndexFile> build_arrays(VolumeSeries& first, const std::filesystem::path& out,
+                                              const BuildOptions& all, const Progress& progress,
+                                              Team& team, BuildTarget& target,
+                                              const IndexFile* held) {
+    const auto written = [&] { return open_local_bytes(target.path_to_read(out), out); };
     Arrays arrays(first, out, all, progress, team, target, held);
     std::uint64_t end = align_up(held ? held->header().file_bytes : kDataBegin, kPartAlignment);
     arrays.write({target.sink(), end, out.string() + ".chunks", thread_count(all.threads)},
@@ -207,40 +209,45 @@ void build_arrays(VolumeSeries& first, const std::filesystem::path& out, const B
         if (team.rank() > 0)
             return;
         auto sections = arrays.take_sections();
-        const auto written = open_bytes(target.path_to_read(out));
+        const auto values = written();
         for (ArraySections& array : sections) {
             array.metadata.blends.reset();
             if (all.measures_blends)
-                measure(array, *written, header.version);
+                measure(array, *values, header.version);
         }
         write_sections(sections, held, end, header, target.sink());
     });
     arrays.report_flushing();
-    target.commit(header);
+    std::shared_ptr<const IndexFile> built;
+    target.commit(header, [&] { built = IndexFile::open(written()); });
+    return built;
 }
 
 } // namespace
 
-void build_index(VolumeSeries& series, const std::filesystem::path& out,
-                 const BuildOptions& options, const Progress& progress, Team& team) {
+std::shared_ptr<const IndexFile> build_index(VolumeSeries& series, const std::filesystem::path& out,
+                                             const BuildOptions& options, const Progress& progress,
+                                             Team& team) {
     check_options(series.info(), options, true);
     NewTarget target(team, out);
     if (!options.replaces_any)
         team.together([&] { refuse_foreign_file(out); });
-    build_arrays(series, out, options, progress, team, target, nullptr);
+    return build_arrays(series, out, options, progress, team, target, nullptr);
 }
 
-void build_index(VolumeSeries& series, const std::filesystem::path& out,
-                 const BuildOptions& options, const Progress& progress) {
-    build_index(series, out, options, progress, *alone());
+std::shared_ptr<const IndexFile> build_index(VolumeSeries& series, const std::filesystem::path& out,
+                                             const BuildOptions& options,
+                                             const Progress& progress) {
+    return build_index(series, out, options, progress, *alone());
 }
 
-void append_index(VolumeSeries& series, const IndexFile& held, GrowingSink& file,
-                  const std::filesystem::path& out, const BuildOptions& options,
-                  const Progress& progress, Team& team) {
+std::shared_ptr<const IndexFile> append_index(VolumeSeries& series, const IndexFile& held,
+                                              GrowingSink& file, const std::filesystem::path& out,
+                                              const BuildOptions& options, const Progress& progress,
+                                              Team& team) {
     check_options(series.info(), options, false);
     GrowingTarget target(team, file, held.header());
-    build_arrays(series, out, options, progress, team, target, &held);
+    return build_arrays(series, out, options, progress, team, target, &held);
 }
 
 } // namespace isochron::index

@@ -8,6 +8,7 @@
 #include "index/system/team.h"
 
 #include <filesystem>
+#include <memory>
 
 namespace isochron::index {
 
@@ -18,11 +19,14 @@ namespace isochron::index {
 /// process: a few layers of 16 planes, if the format can be read piece by piece, and a little more
 /// than twice `waiting_bytes`. Building the paper's tree takes 30 bytes more for each cell and step.
 /// @param team all its members call this with the same series and options
+/// @return the new index on rank 0, null on others; it was opened before it got its name
 /// @throws Error: as reading the series, unwritable, disk full, larger than `CellId` can count
-void build_index(VolumeSeries& series, const std::filesystem::path& out,
-                 const BuildOptions& options, const Progress& progress = {});
-void build_index(VolumeSeries& series, const std::filesystem::path& out,
-                 const BuildOptions& options, const Progress& progress, Team& team);
+std::shared_ptr<const IndexFile> build_index(VolumeSeries& series, const std::filesystem::path& out,
+                                             const BuildOptions& options,
+                                             const Progress& progress = {});
+std::shared_ptr<const IndexFile> build_index(VolumeSeries& series, const std::filesystem::path& out,
+                                             const BuildOptions& options, const Progress& progress,
+                                             Team& team);
 
 /// Appends, in place, the steps that an index does not hold yet. It writes after the end of the
 /// file and where the present header names nothing, and writes the header last. If it is killed at
@@ -33,9 +37,12 @@ void build_index(VolumeSeries& series, const std::filesystem::path& out,
 /// @param held the newest state of the file, with as many arrays as are given
 /// @param file opened for writing, with `alone` on rank 0 only
 /// @param options tiers, codec, referral and colors as the index has them
-/// @throws Error as `build_index`; the index stays as it was
-void append_index(VolumeSeries& series, const IndexFile& held, GrowingSink& file,
-                  const std::filesystem::path& out, const BuildOptions& options,
-                  const Progress& progress, Team& team);
+/// @return the index with its new steps on rank 0, null on others
+/// @throws Error as `build_index`; the index stays as it was, but where it has grown and cannot be
+/// opened
+std::shared_ptr<const IndexFile> append_index(VolumeSeries& series, const IndexFile& held,
+                                              GrowingSink& file, const std::filesystem::path& out,
+                                              const BuildOptions& options, const Progress& progress,
+                                              Team& team);
 
 } // namespace isochron::index

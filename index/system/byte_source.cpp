@@ -22,7 +22,8 @@ constexpr std::size_t kFetched = 1 << 20;
 
 class OpenFile final : public ByteSource {
   public:
-    explicit OpenFile(const std::filesystem::path& path) : name_(path.string()), file_(path) {
+    OpenFile(const std::filesystem::path& path, const std::filesystem::path& name)
+        : name_(name.string()), file_(path) {
         // Reads are scattered, so the kernel's own reading ahead would read unneeded bytes.
         ::posix_fadvise(file_.descriptor(), 0, 0, POSIX_FADV_RANDOM);
     }
@@ -103,8 +104,9 @@ void ByteSource::read_all(Some some, std::uint64_t offset, std::span<std::byte> 
     }
 }
 
-std::unique_ptr<ByteSource> open_local_bytes(const std::filesystem::path& path) {
-    return std::make_unique<OpenFile>(path);
+std::unique_ptr<ByteSource> open_local_bytes(const std::filesystem::path& path,
+                                             const std::filesystem::path& name) {
+    return std::make_unique<OpenFile>(path, name);
 }
 
 } // namespace isochron::index

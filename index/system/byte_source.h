@@ -55,7 +55,8 @@ class ByteSource {
 
 /// @throws Error: missing, unreadable, not a regular file
 std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path);
-/// A file of this machine.
-std::unique_ptr<ByteSource> open_local_bytes(const std::filesystem::path& path);
+/// A file of this machine. @param name by which errors call it
+std::unique_ptr<ByteSource> open_local_bytes(const std::filesystem::path& path,
+                                             const std::filesystem::path& name);
 
 } // namespace isochron::index

@@ -19,14 +19,16 @@ namespace fs = std::filesystem;
 
 /// The lowest limit of a control group and the groups around it; a file that is missing, or says
 /// `max`, sets no limit.
-std::uint64_t group_limit(const fs::path& root, fs::path group, const char* file,
+std::uint64_t group_limit(const std::string& root, std::string group, const char* file,
                           std::uint64_t limit) {
-    for (;; group = group.parent_path()) {
+    while (true) {
         std::uint64_t bytes = 0;
-        if (std::ifstream(root / group.relative_path() / file) >> bytes)
+        if (std::ifstream(root + group + '/' + file) >> bytes)
             limit = std::min(limit, bytes);
-        if (!group.has_relative_path())
+        const std::size_t slash = group.rfind('/');
+        if (slash == std::string::npos)
             return limit;
+        group.resize(slash);
     }
 }
 
@@ -77,13 +79,13 @@ std::uint64_t memory_limit(const fs::path& root) {
         if (second == std::string::npos)
             continue;
         const std::string controllers = line.substr(first + 1, second - first - 1);
-        const fs::path group = line.substr(second + 1);
+        const std::string group = line.substr(second + 1);
         if (controllers.empty())
             for (const char* file : {"memory.max", "memory.high"})
-                limit = group_limit(root / "sys/fs/cgroup", group, file, limit);
+                limit = group_limit(root.string() + "/sys/fs/cgroup", group, file, limit);
         else if (controllers == "memory")
-            limit =
-                group_limit(root / "sys/fs/cgroup/memory", group, "memory.limit_in_bytes", limit);
+            limit = group_limit(root.string() + "/sys/fs/cgroup/memory", group,
+                                "memory.limit_in_bytes", limit);
     }
     return limit;
 }

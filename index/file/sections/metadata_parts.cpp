@@ -69,7 +69,7 @@ void get_decoding(const json& j, ReadOptions& options) {
 } // namespace
 
 json json_of(const ReadOptions& options) {
-    json j;
+    json j = json::object();
     put_decoding(j, options);
     for (const auto& [key, value] :
          {std::pair("spacing", options.spacing), {"origin", options.origin}})

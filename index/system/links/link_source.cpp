@@ -625,7 +625,7 @@ std::unique_ptr<ByteSource> open_link(const std::string& address) {
 }
 
 std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path) {
-    return is_link(path.native()) ? open_link(path.native()) : open_local_bytes(path);
+    return is_link(path.native()) ? open_link(path.native()) : open_local_bytes(path, path);
 }
 
 } // namespace isochron::index

@@ -62,7 +62,8 @@ enum class LinePress { none, once, twice };
 /// @param height panel pixels; 0: that of a line of text
 LinePress table_line(bool chosen, float height = 0.0f);
 
-/// The format of a number with its unit, behind words if there are any; percent signs of both are escaped.
+/// The format of a number with its unit, behind words if there are any; percent signs of both are
+/// escaped.
 std::string format_with(const std::string& unit, const std::string& words = {});
 
 } // namespace isochron::app

@@ -176,9 +176,11 @@ bool Option::given() const {
 
 namespace {
 
+constexpr const char* kOfEveryCommand = "Output"; ///< group of options that every command has
+
 /// The options that every command has; `set_telling` reads them.
 void add_telling_options(CLI::App& command) {
-    const char* group = "Output";
+    const char* group = kOfEveryCommand;
     for (const auto& [name, help] :
          {std::pair<std::string, std::string>{
               "--json", "Print one JSON object in place of text; its keys: docs/guide/json.md"},
@@ -223,6 +225,10 @@ struct Taken<std::vector<T>> {
 template <class T>
 Option Command::option(const std::string& names, T& value, const std::string& help) {
     using Value = Taken<T>::Value;
+    // A command's own option takes the place of one that every command has.
+    if (CLI::Option* const of_every = app_->get_option_no_throw(names);
+        of_every && of_every->get_group() == kOfEveryCommand)
+        app_->remove_option(of_every);
     Option added(*app_->add_option(names, value, help));
     if constexpr (std::is_floating_point_v<Value>)
         added.accepted_by(

@@ -3,7 +3,10 @@
 #include "app/command_line/cancel.h"
 #include "app/command_line/subcommands.h"
 #include "app/control/control_address.h"
+#include "app/explore/story_file.h"
 #include "app/indexing/open_index.h"
+#include "app/kept/session_file.h"
+#include "app/loop/movie_maker.h"
 #include "app/safe_text.h"
 #include "app/serve/http_server.h"
 #include "app/telling.h"
@@ -35,7 +38,7 @@ struct ServeArguments {
     std::vector<fs::path> files;
     std::string address = "127.0.0.1";
     std::uint32_t port = 0;
-    fs::path write_site, certificate, key;
+    fs::path write_site, certificate, key, story;
     bool no_token = false, follow = false;
 };
 
@@ -59,21 +62,38 @@ bool is_own(const fs::path& folder) {
     return words.find("\"isochron site\"") != std::string::npos;
 }
 
+/// Refuses what the page would refuse, and what is not to be shown to others.
+void check_story(const fs::path& story) {
+    if (!is_story_name(story.string()))
+        throw UsageError(
+            fmt::format("--story {}: expected a file NAME{}", story.string(), kStoryEnding));
+    const std::string text = index::read_text(story, kLargestStory);
+    if (is_session_text(text))
+        throw index::Error(
+            fmt::format("{}: a session, which names folders of this machine: expected a story, as "
+                        "\"save as story\" in the list of keys makes it",
+                        story.string()));
+    story_in(text, story.string());
+}
+
 void write_site(const ServeArguments& arguments) {
     const fs::path& folder = arguments.write_site;
     if (!is_own(folder))
         throw index::Error(fmt::format("{}: expected a new or empty folder, or one that `isochron "
                                        "serve --write-site` wrote; nothing is written",
                                        folder.string()));
+    std::vector<fs::path> all = arguments.files;
+    if (!arguments.story.empty())
+        all.push_back(arguments.story);
     std::uintmax_t bytes = 0;
-    for (const fs::path& file : arguments.files)
+    for (const fs::path& file : all)
         bytes += fs::file_size(file);
     print_note("writing {}: {}", folder.string(), human_bytes(static_cast<double>(bytes)));
     const CancelOnSignal signals;
     fs::create_directories(folder);
     // It looks at the names first, and makes the folder one that may be written again.
-    site_module().write_page(folder, arguments.files);
-    for (const fs::path& file : arguments.files) {
+    site_module().write_page(folder, {.files = arguments.files, .story = arguments.story});
+    for (const fs::path& file : all) {
         const fs::path copy = folder / file.filename();
         if (fs::exists(copy) && fs::equivalent(copy, file))
             continue;
@@ -134,6 +154,8 @@ void run_serve(const ServeArguments& arguments) {
                 fmt::format("{}: has no copy of its values (it was built with --refer); "
                             "isochron build {} -o NEW.isochron makes one that has",
                             file.string(), file.string()));
+    if (!arguments.story.empty())
+        check_story(arguments.story);
     if (arguments.follow && !arguments.write_site.empty())
         throw UsageError(
             "--follow: files on another web server do not grow; expected it without --write-site");
@@ -147,7 +169,7 @@ void run_serve(const ServeArguments& arguments) {
     };
     const std::string token = arguments.no_token ? "" : new_control_token();
     const CancelOnSignal signals;
-    SiteParts parts{.files = arguments.files, .token = token};
+    SiteParts parts{.files = arguments.files, .token = token, .story = arguments.story};
     if (arguments.follow)
         parts.written = written_of;
     const auto server =
@@ -212,6 +234,11 @@ void add_serve(Command& program) {
     command.flag("--follow", arguments->follow,
                  "Show steps that `build --append` adds meanwhile, to whoever has the page or the "
                  "link open");
+    command
+        .option("--story", arguments->story,
+                "Tell the story in this file on the page, on the first index: NAME.isochron-story "
+                "(docs/guide/stories.md)")
+        .type_name("FILE");
     command
         .option(
             "--write-site", arguments->write_site,

@@ -1,6 +1,8 @@
 // Reads and writes the settings in links.
 #include "app/explore/link_view.h"
 
+#include "render/passes/color_map.h"
+
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
 
@@ -93,15 +95,23 @@ LinkSight sight_of(const LinkScreen& of) {
             .middle = middle};
 }
 
-/// The axes of a camera of the page, whose z is up: right, up, and back to the viewer.
-glm::dmat3 page_axes(const glm::dvec3& back) {
-    const glm::dvec3 up = std::abs(back.z) < 1 - 1e-9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+/// The axes of a camera of the page: right, up, and back to the viewer.
+/// @param wanted what is up in its picture
+glm::dmat3 page_axes(const glm::dvec3& back, const glm::dvec3& wanted = {0, 0, 1}) {
+    const auto along = [&](const glm::dvec3& up) {
+        return glm::length(glm::cross(up, back)) < 1e-9;
+    };
+    const glm::dvec3 up = !along(wanted)                ? wanted
+                          : !along(glm::dvec3{0, 0, 1}) ? glm::dvec3(0, 0, 1)
+                                                        : glm::dvec3(0, 1, 0);
     const glm::dvec3 right = glm::normalize(glm::cross(up, back));
     return {right, glm::cross(back, right), back};
 }
 
+/// @param up in the picture; empty: the data's z
 void see_as_linked(ExplorerState& state, const std::vector<double>& view,
-                   const index::IndexFile& file, const LinkScreen& screen) {
+                   const std::vector<double>& up, const index::IndexFile& file,
+                   const LinkScreen& screen) {
     const glm::dvec3 origin = file.info().grid.origin; // where the page's points count from
     const glm::dvec3 eye = glm::dvec3(view[0], view[1], view[2]) + origin,
                      target = glm::dvec3(view[3], view[4], view[5]) + origin;
@@ -112,8 +122,12 @@ void see_as_linked(ExplorerState& state, const std::vector<double>& view,
     interaction::Similarity& seen = state.room_from_physical;
     const interaction::Similarity before = seen;
     seen.exaggeration = 1;
-    seen.rotation = glm::normalize(
-        glm::quat_cast(sight.room_from_eye * glm::transpose(page_axes((eye - target) / distance))));
+    const glm::dvec3 wanted = up.size() == 3 ? glm::dvec3(up[0], up[1], up[2]) : glm::dvec3(0);
+    const double length = glm::length(wanted);
+    seen.rotation = glm::normalize(glm::quat_cast(
+        sight.room_from_eye *
+        glm::transpose(page_axes((eye - target) / distance,
+                                 length > 0 ? wanted / length : glm::dvec3(0, 0, 1)))));
     // At the target the page's picture is as large as this one.
     seen.scale = sight.distance * sight.half / (distance * kPageHalf);
     seen.translation = sight.middle - seen.scale * (seen.rotation * target);
@@ -192,6 +206,16 @@ ExplorerState as_linked(ExplorerState state, const Words& settings, const index:
         number && *number >= 0 && *number < static_cast<double>(file.arrays())) {
         state.coloring.by = interaction::ColorBy::value;
         state.coloring.array = file.array(static_cast<std::size_t>(*number)).info().array;
+        if (const auto map = render::color_map_from_name(word_of(settings, "map")))
+            state.coloring.map = render::name_of(*map);
+        if (const auto range = numbers_of(word_of(settings, "range"));
+            range.size() == 2 && range[0] < range[1])
+            state.coloring.range = {range[0], range[1]};
+    }
+    if (const auto plane = numbers_of(word_of(settings, "plane")); plane.size() == 6) {
+        const glm::dvec3 normal(plane[3], plane[4], plane[5]);
+        if (glm::length(normal) > 0)
+            state.clip = {true, {plane[0], plane[1], plane[2]}, glm::normalize(normal)};
     }
     if (const auto clip = numbers_of(word_of(settings, "clip"));
         clip.size() == 2 && (clip[0] == 0 || clip[0] == 1 || clip[0] == 2) && clip[1] >= 0 &&
@@ -205,7 +229,7 @@ ExplorerState as_linked(ExplorerState state, const Words& settings, const index:
                       glm::normalize(glm::dvec3(physical * along))};
     }
     if (const auto view = numbers_of(word_of(settings, "view")); view.size() == 6)
-        see_as_linked(state, view, file, screen);
+        see_as_linked(state, view, numbers_of(word_of(settings, "up")), file, screen);
     return state;
 }
 
@@ -246,9 +270,22 @@ std::string link_to(const std::string& address, const ExplorerState& state,
         link += "&further=" + further;
     if (const std::uint32_t fraction = state.shown_instant().fraction)
         link += fmt::format("&fraction={}", fraction);
+    constexpr double kTilted = 1e-4, kDigits = 1e7;
+    const glm::dvec3 up = glm::conjugate(seen.rotation) * sight.room_from_eye[1],
+                     said = glm::round(up * kDigits) / kDigits + 0.0; // no -0
+    const glm::dmat3 upright = page_axes(glm::conjugate(seen.rotation) * back);
+    if (glm::distance(up, upright[1]) > kTilted)
+        link += fmt::format("&up={:.7g},{:.7g},{:.7g}", said.x, said.y, said.z);
+    if (const interaction::ClipPlane& clip = state.clip; clip.shown)
+        link +=
+            fmt::format("&plane={:.9g},{:.9g},{:.9g},{:.7g},{:.7g},{:.7g}", clip.point.x,
+                        clip.point.y, clip.point.z, clip.normal.x, clip.normal.y, clip.normal.z);
     if (state.coloring.by == interaction::ColorBy::value)
-        if (const auto number = file.array_called(state.coloring.array))
+        if (const auto number = file.array_called(state.coloring.array)) {
             link += fmt::format("&colors={}&map={}", *number, state.coloring.map);
+            if (const auto& range = state.coloring.range)
+                link += fmt::format("&range={:.9g},{:.9g}", (*range)[0], (*range)[1]);
+        }
     return link;
 }
 

@@ -25,8 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kLargestStory = 1 << 22; ///< [byte]
-
 /// Whether whoever sits at the terminal says yes; nobody does where there is none.
 bool agrees(const std::string& question) {
     if (!isatty(STDIN_FILENO) || !isatty(STDERR_FILENO))

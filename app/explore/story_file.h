@@ -4,11 +4,14 @@
 
 #include "interaction/setting_values.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace isochron::app {
+
+inline constexpr std::uint64_t kLargestStory = 1 << 22; ///< [byte]
 
 /// The keys of a text: a file of keys, or a session. @param name for messages
 /// @throws interaction::Error

@@ -209,8 +209,7 @@ class Server final : public HttpServer {
     std::uint16_t port_ = 0;
 };
 
-void write_page(const std::filesystem::path& folder,
-                const std::vector<std::filesystem::path>& files) {
+void write_page(const std::filesystem::path& folder, SiteParts parts) {
     const auto write = [](const std::filesystem::path& path, std::span<const std::byte> bytes) {
         index::NewFile file(path);
         file.write_at(0, bytes);
@@ -219,7 +218,7 @@ void write_page(const std::filesystem::path& folder,
     std::filesystem::create_directories(folder / "assets");
     for (const PageFile& file : page_files())
         write(folder / file.name, file.bytes);
-    const std::string list = Site({.files = files}).list();
+    const std::string list = Site(std::move(parts)).list();
     write(folder / "site.json", std::as_bytes(std::span(list)));
 }
 

@@ -32,10 +32,9 @@ struct SiteModule {
     /// @param parts without hosts: those that `place` has are set
     /// @throws index::Error: the place is taken or is not of this machine; as Site does
     std::unique_ptr<HttpServer> (*serve)(SiteParts parts, const HttpPlace& place);
-    /// Writes the page and a list of these files into an existing folder.
+    /// Writes the page and a list of the site's files into an existing folder.
     /// @throws index::Error when that fails
-    void (*write_page)(const std::filesystem::path& folder,
-                       const std::vector<std::filesystem::path>& files);
+    void (*write_page)(const std::filesystem::path& folder, SiteParts parts);
     std::string (*qr_code)(const std::string& text);
 };
 

@@ -74,7 +74,10 @@ std::string_view media_type(std::string_view name) {
 }
 
 Site::Site(SiteParts parts) : parts_(std::move(parts)) {
-    for (const fs::path& file : parts_.files) {
+    std::vector<fs::path> all = parts_.files;
+    if (!parts_.story.empty())
+        all.push_back(parts_.story);
+    for (const fs::path& file : all) {
         if (!file_now(file))
             throw index::Error(fmt::format("{}: there is no such file", file.string()));
         const std::string name = file.filename().string();
@@ -93,6 +96,8 @@ std::string Site::list() const {
     nlohmann::ordered_json site{{"format", "isochron site"}, {"files", names}};
     if (parts_.written)
         site["follow"] = true;
+    if (!parts_.story.empty())
+        site["story"] = parts_.story.filename().string();
     return site.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -139,7 +144,7 @@ std::optional<ServedFile> Site::now(const fs::path& path) const {
 }
 
 SiteAnswer Site::of_file(const SiteRequest& request, const fs::path& path) const {
-    const auto now = this->now(path);
+    const auto now = path == parts_.story ? file_now(path) : this->now(path); // a story is no index
     if (!now)
         return words(404, "the file is gone\n");
     if (const auto wanted = request.header("if-match");

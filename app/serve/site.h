@@ -35,13 +35,14 @@ struct ServedFile {
 
 /// What a site is made of.
 struct SiteParts {
-    std::vector<std::filesystem::path> files; ///< served under their names without folders
+    std::vector<std::filesystem::path> files; ///< indices, served under their names without folders
     std::string token{};                      ///< that files and list need; empty: none
     /// Hosts that a request may name; empty: any. It keeps pages of other sites from asking through a
     /// browser under a name of theirs.
     std::vector<std::string> hosts{};
     /// Files that grow, as what was written whole last. Null: files are as they are.
     std::function<std::optional<ServedFile>(const std::filesystem::path&)> written{};
+    std::filesystem::path story{}; ///< told on the first of the files; empty: none
 };
 
 /// A request, as far as a site looks at it.
@@ -70,7 +71,7 @@ struct SiteAnswer {
 /// Thread-safe: asking changes nothing.
 class Site {
   public:
-    /// @throws index::Error: a file is not there, or two have the same name
+    /// @throws index::Error: a file or the story is not there, or two have the same name
     explicit Site(SiteParts parts);
 
     SiteAnswer answer(const SiteRequest& request) const;

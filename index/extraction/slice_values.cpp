@@ -226,8 +226,7 @@ SliceValues slice_values(const IndexFile& array, const SliceQuery& query,
     }
     const ChunkGrid& chunks = step.chunk_grid();
     const auto places = needed_chunks(chunks, runs, slice.axis);
-    for (std::uint32_t layer = 0; layer < chunks.layers(); ++layer)
-        step.expect(layer, places[layer]);
+    step.expect(0, places);
     for (std::uint32_t layer = 0; layer < chunks.layers(); ++layer) {
         if (places[layer].empty())
             continue;

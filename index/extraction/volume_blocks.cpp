@@ -287,7 +287,7 @@ bool BlockGatherer::gather_chunks(const StepView& step, const BlockLevels& level
             std::ranges::sort(places);
             places.erase(std::unique(places.begin(), places.end()), places.end());
             const auto at_layer = static_cast<std::uint32_t>(layer);
-            step.expect(at_layer, places);
+            step.expect(at_layer, {&places, 1});
             const auto found = step.chunks(at_layer, places, stop);
             for (auto block = first; block != last; ++block) {
                 if ((block - first) % 256 == 0 && stop.stop_requested())

@@ -87,10 +87,12 @@ class StepView {
     }
     /// The blend of these pairs; null at a step.
     const Blend* cube_blend() const { return between_ ? &*blend_ : nullptr; }
-    std::uint64_t expect(std::uint32_t layer, std::span<const std::uint32_t> places) const {
+    /// As of ChunkStore.
+    std::uint64_t expect(std::uint32_t first,
+                         std::span<const std::vector<std::uint32_t>> places) const {
         if (!by_chunks())
             return 0;
-        return between_ ? between_->expect(layer, places) : store_->expect(at_.step, layer, places);
+        return between_ ? between_->expect(first, places) : store_->expect(at_.step, first, places);
     }
     std::uint64_t fetch(std::uint32_t layer, std::span<const std::uint32_t> places,
                         const std::stop_token& stop) const {

@@ -170,13 +170,12 @@ void CubeSearch::need(std::uint32_t x, std::uint32_t y, ChunksAround around) {
 
 /// Reads the chunks that are needed and not there.
 void CubeSearch::fetch(const LayerCandidates& candidates, const std::stop_token& stop) {
-    for (std::uint32_t i = 0; i < missing_.size(); ++i) {
-        std::ranges::sort(missing_[i]);
-        std::vector<std::uint32_t> others = missing_[i];
-        candidates.keep_unannounced(layer_ + i - 1, others);
-        if (!others.empty()) // announces all of them before waiting for any
-            step_->expect(layer_ + i - 1, others);
-    }
+    for (std::vector<std::uint32_t>& places : missing_)
+        std::ranges::sort(places);
+    auto others = missing_;
+    for (std::uint32_t i = 0; i < others.size(); ++i)
+        candidates.keep_unannounced(layer_ + i - 1, others[i]);
+    step_->expect(layer_ - 1, others); // all of them before waiting for any
     for (std::uint32_t i = 0; i < missing_.size(); ++i) {
         const std::vector<std::uint32_t> places = std::exchange(missing_[i], {});
         if (places.empty())

@@ -56,6 +56,7 @@ LayerCandidates::LayerCandidates(const StepView& step, std::uint32_t layer,
                             around_[bit / 9].push_back(grid.place(cx, cy));
                         });
     }
+    std::array<std::vector<std::uint32_t>, 3> announced;
     for (std::uint32_t i = 0; i < around_.size(); ++i) {
         std::vector<std::uint32_t>& places = around_[i];
         std::ranges::sort(places);
@@ -66,8 +67,9 @@ LayerCandidates::LayerCandidates(const StepView& step, std::uint32_t layer,
         });
         if (tables_[i] &&
             !step.store().fetches_all(count_of(*tables_[i], cut, layer + i - 1, only)))
-            step.expect(layer + i - 1, places);
+            announced[i] = places;
     }
+    step.expect(layer - 1, announced);
     time_ = std::chrono::steady_clock::now() - started;
 }
 

@@ -216,9 +216,8 @@ void StepSlab::fill() {
         for (std::uint32_t place = 0; place < state_[i].size(); ++place)
             if (state_[i][place] == needed)
                 places[i].push_back(place);
-        if (!places[i].empty()) // announces all of them before waiting for any
-            step_->expect(layer_ + i - 1, places[i]);
     }
+    step_->expect(layer_ - 1, places); // all of them before waiting for any
     for (std::uint32_t i = 0; i < state_.size(); ++i) {
         if (places[i].empty())
             continue;

@@ -37,6 +37,21 @@ class OpenFile final : public ByteSource {
                             POSIX_FADV_WILLNEED);
     }
 
+    void expect_each(std::span<const ByteRange> ranges) const override {
+        RequestRings::Ring ring = ranges.size() > 1 ? announcing_.take() : nullptr;
+        if (!ring)
+            return ByteSource::expect_each(ranges);
+        thread_local std::vector<ByteRange> advised;
+        advised.clear();
+        for (ByteRange range : ranges)
+            for (const std::uint64_t end = range.offset + range.bytes; range.offset < end;
+                 range.offset += kAdvised)
+                advised.push_back({range.offset, std::min(end - range.offset, kAdvised)});
+        if (!ring->announce(file_.descriptor(), advised))
+            ByteSource::expect_each(ranges);
+        announcing_.give_back(std::move(ring));
+    }
+
     void fetch(std::uint64_t offset, std::uint64_t bytes,
                const std::stop_token& stop) const override {
         const InputFile* const file = in_order();
@@ -66,6 +81,13 @@ class OpenFile final : public ByteSource {
         const InputFile* const file = in_order();
         return (file ? *file : file_).read(offset, out);
     }
+    void read_together(std::span<const RangeRead> reads,
+                       std::span<std::size_t> got) const override {
+        if (RequestRings::Ring ring = reading_.take()) {
+            ring->read(file_.descriptor(), reads, got);
+            reading_.give_back(std::move(ring));
+        }
+    }
 
   private:
     /// The file without the advice above: the kernel reads ahead as it sees fit, in large requests
@@ -79,12 +101,30 @@ class OpenFile final : public ByteSource {
     InputFile file_;
     mutable std::once_flag opened_;
     mutable std::unique_ptr<InputFile> in_order_;
+    mutable RequestRings announcing_,
+        reading_; ///< whoever reads does not wait for what is announced
 };
 
 } // namespace
 
 void ByteSource::read(std::uint64_t offset, std::span<std::byte> out) const {
     read_all(&ByteSource::read_some, offset, out);
+}
+
+void ByteSource::read_each(std::span<const RangeRead> reads) const {
+    thread_local std::vector<std::size_t> got;
+    got.assign(reads.size(), 0);
+    if (reads.size() > 1)
+        read_together(reads, got);
+    for (std::size_t i = 0; i < reads.size(); ++i) {
+        bytes_read_ += got[i];
+        read(reads[i].offset + got[i], reads[i].out.subspan(got[i]));
+    }
+}
+
+void ByteSource::expect_each(std::span<const ByteRange> ranges) const {
+    for (const ByteRange& range : ranges)
+        expect(range.offset, range.bytes);
 }
 
 void ByteSource::read_in_order(std::uint64_t offset, std::span<std::byte> out) const {

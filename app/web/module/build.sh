@@ -14,10 +14,11 @@ trap 'rm -rf "$objects"' EXIT
 for source in $here/module.cpp index/scan/scan.cpp index/surface/mesh_maker.cpp index/surface/mesh_vertices.cpp \
   index/surface/mesh_cases.cpp index/surface/cell_mesh.cpp index/surface/cell_colors.cpp index/file/chunks/packed_rows.cpp \
   index/file/chunks/chunk_sums.cpp index/file/chunks/chunk_codec.cpp index/file/chunks/chunk_grid.cpp \
-  index/file/chunks/chunk_differences.cpp index/file/sections/step_levels.cpp index/volume/stored_cut.cpp \
+  index/file/chunks/chunk_differences.cpp index/file/sections/step_levels.cpp index/file/blended_ranks.cpp \
+  index/volume/blend.cpp index/volume/stored_cut.cpp \
   index/volume/grid.cpp index/volume/level_map.cpp index/volume/value_type.cpp; do
   # Highway of Debian 12 has no vectors of f64 for WebAssembly, which these need.
-  case $source in index/scan/scan.cpp | index/file/chunks/chunk_differences.cpp) how=-DHWY_COMPILE_ONLY_SCALAR ;; *) how=-DHWY_COMPILE_ONLY_STATIC ;; esac
+  case $source in index/scan/scan.cpp | index/volume/blend.cpp | index/file/chunks/chunk_differences.cpp) how=-DHWY_COMPILE_ONLY_SCALAR ;; *) how=-DHWY_COMPILE_ONLY_STATIC ;; esac
   # shellcheck disable=SC2086
   clang++-19 $flags $how -c "$source" -o "$objects/$(basename "$source" .cpp).o"
 done

@@ -3,6 +3,7 @@
 //
 // One array of an index at one level of detail is a Volume. Whoever calls gives and takes places in
 // the module's memory, from `take`.
+#include "index/file/blended_ranks.h"
 #include "index/file/chunks/chunk_codec.h"
 #include "index/file/chunks/chunk_grid.h"
 #include "index/file/chunks/chunk_table.h"
@@ -69,11 +70,15 @@ struct Volume {
     Scaling scaling;
     ChunkGrid chunks;
     bool has_bricks, has_since;
-    std::optional<LevelMap> levels;
+    std::array<std::optional<LevelMap>, 2> levels; ///< for the step, and for the next one
     double isovalue = 0;
+    // Between two steps:
+    std::optional<Blend> blend;
+    std::optional<BlendedRanks> ranks; ///< none without bricks
     std::optional<LevelMap::Cut> cut;
     MeshMaker maker;
-    std::vector<std::byte> cube;
+    std::array<std::vector<std::byte>, 2> cubes; ///< the step's, and the next one's
+    std::vector<std::byte> blended;
     Surface surface;
 
     std::size_t head_bytes() const {
@@ -111,9 +116,10 @@ Reach reach_of(const Volume& volume, std::size_t axis, std::uint32_t chunk) {
             std::min(begin + kChunkEdge + 2, volume.grid.vertices[axis])};
 }
 
-/// Copies what a neighboring chunk has of the cube.
-void copy_to_cube(Volume& volume, const std::array<Reach, 3>& reach,
-                  const std::array<std::uint32_t, 3>& chunk, const std::byte* values) {
+/// Copies what a neighboring chunk has of a cube.
+void copy_to_cube(const Volume& volume, std::vector<std::byte>& cube,
+                  const std::array<Reach, 3>& reach, const std::array<std::uint32_t, 3>& chunk,
+                  const std::byte* values) {
     const std::size_t word = size_of(volume.type);
     std::array<std::uint32_t, 3> begin, end, size;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -134,8 +140,7 @@ void copy_to_cube(Volume& volume, const std::array<Reach, 3>& reach,
                 begin[0] - chunk[0] * kChunkEdge;
             const std::size_t to = (z - reach[2].first) * plane + (y - reach[1].first) * row +
                                    begin[0] - reach[0].first;
-            std::memcpy(volume.cube.data() + to * word, values + from * word,
-                        (end[0] - begin[0]) * word);
+            std::memcpy(cube.data() + to * word, values + from * word, (end[0] - begin[0]) * word);
         }
 }
 
@@ -146,8 +151,9 @@ struct Cube {
     std::array<std::uint32_t, 3> begin; ///< the chunk's first vertex in the cube
 };
 
+/// @param around_next chunks at the next step, between the two; else null
 Cube fill_cube(Volume& volume, std::uint32_t layer, std::uint32_t place,
-               const std::byte* const* around) {
+               const std::byte* const* around, const std::byte* const* around_next) {
     const auto [cx, cy] = volume.chunks.at(place);
     const std::array<std::uint32_t, 3> chunk{cx, cy, layer};
     std::array<Reach, 3> reach;
@@ -160,19 +166,30 @@ Cube fill_cube(Volume& volume, std::uint32_t layer, std::uint32_t place,
         begin[axis] = chunk[axis] * kChunkEdge - first[axis];
         count *= end[axis] - first[axis];
     }
-    volume.cube.assign(count * size_of(volume.type), std::byte{0});
-    for (std::uint32_t bit = 0; bit < kChunksAround; ++bit)
-        if (around[bit])
-            copy_to_cube(volume, reach,
-                         {cx + bit % 3 - 1, cy + bit / 3 % 3 - 1, layer + bit / 9 - 1},
-                         around[bit]);
-    return {{.grid = volume.grid.part(first, end),
-             .type = volume.type,
-             .scaling = volume.scaling,
-             .steps = 1,
-             .first = volume.cube.data()},
-            first,
-            begin};
+    const auto fill = [&](std::vector<std::byte>& cube, const std::byte* const* chunks_around) {
+        cube.assign(count * size_of(volume.type), std::byte{0});
+        for (std::uint32_t bit = 0; bit < kChunksAround; ++bit)
+            if (chunks_around[bit])
+                copy_to_cube(volume, cube, reach,
+                             {cx + bit % 3 - 1, cy + bit / 3 % 3 - 1, layer + bit / 9 - 1},
+                             chunks_around[bit]);
+    };
+    fill(volume.cubes[0], around);
+    StepValues values{.grid = volume.grid.part(first, end),
+                      .type = volume.type,
+                      .scaling = volume.scaling,
+                      .steps = 1,
+                      .first = volume.cubes[0].data()};
+    if (around_next && volume.blend) {
+        const Blend& blend = *volume.blend;
+        fill(volume.cubes[1], around_next);
+        volume.blended.resize(count * size_of(blend.type()));
+        blend(volume.cubes[0], volume.cubes[1], volume.blended.data());
+        values.type = blend.type();
+        values.scaling = blend.scaling();
+        values.first = volume.blended.data();
+    }
+    return {std::move(values), first, begin};
 }
 
 /// Calls `f(x, y, z)` for the cells of some bricks of a cube's chunk, ascending.
@@ -232,36 +249,79 @@ EXPORT("table_bytes") std::uint32_t table_bytes(const Volume* volume) {
         layer_table_bytes(volume->chunks.chunks_of_layer(), volume->has_since));
 }
 
-/// Sets the levels of a step's bricks. @param bytes of the file; none for types of one byte
-/// @return 0 if they are damaged
-EXPORT("set_levels") int set_levels(Volume* volume, const std::byte* bytes, std::size_t count) {
-    volume->levels = has_step_levels(volume->type)
-                         ? step_levels(volume->type, {bytes, count})
-                         : std::optional<LevelMap>(LevelMap::of_type(volume->type));
-    return volume->levels ? 1 : 0;
+/// Sets the levels of a step's bricks. @param which 0: of the step, 1: of the next one
+/// @param bytes of the file; none for types of one byte, and without bricks @return 0 if they are damaged
+EXPORT("set_levels")
+int set_levels(Volume* volume, int which, const std::byte* bytes, std::size_t count) {
+    if (!volume->has_bricks)
+        return 1;
+    auto& levels = volume->levels[static_cast<std::size_t>(which)];
+    levels = has_step_levels(volume->type)
+                 ? step_levels(volume->type, {bytes, count})
+                 : std::optional<LevelMap>(LevelMap::of_type(volume->type));
+    return levels ? 1 : 0;
 }
-/// Sets the isovalue, after the levels. @return 0: no cell is active
-EXPORT("set_isovalue") int set_isovalue(Volume* volume, double isovalue) {
+/// Sets the moment, after the levels. @param fraction of the way to the next step, see Instant
+/// @param isovalues those that will be asked for, one; null: any
+void set_moment(Volume& volume, std::uint32_t fraction, std::span<const double> isovalues) {
+    volume.blend.reset();
+    if (fraction > 0)
+        volume.blend.emplace(volume.type, volume.scaling, fraction, isovalues);
+}
+/// Sets the moment for an array by whose values a surface is colored: no isovalue is asked for.
+EXPORT("set_colors") void set_colors(Volume* volume, std::uint32_t fraction) {
+    set_moment(*volume, fraction, {});
+}
+/// Sets moment and isovalue, after the levels. @return 0: no cell is active
+EXPORT("set_query") int set_query(Volume* volume, std::uint32_t fraction, double isovalue) {
+    set_moment(*volume, fraction, {&isovalue, 1});
     volume->isovalue = isovalue;
-    volume->cut = volume->levels->cut(volume->scaling, isovalue);
+    volume->ranks.reset();
+    volume->cut.reset();
+    if (!volume->has_bricks)
+        return 1;
+    if (!volume->levels[0] || (volume->blend && !volume->levels[1]))
+        return 0;
+    const auto& [now, next] = volume->levels;
+    if (const auto& blend = volume->blend) {
+        volume->ranks.emplace(*now, *next, volume->scaling, *blend, fraction, blend->isovalues());
+        volume->cut = volume->ranks->levels()->cut(blend->scaling(), isovalue);
+    } else {
+        volume->cut = now->cut(volume->scaling, isovalue);
+    }
     return volume->cut ? 1 : 0;
 }
 
-/// The chunks of a layer that may hold active cells. @param table of the layer, as in the file
-/// @param out gets their places, ascending @return their number; -1: the checksum does not match
-EXPORT("candidates")
-int candidates(const Volume* volume, const std::byte* table, std::uint32_t* out) {
+/// The entries of a layer's table. @return null: the checksum does not match
+const std::byte* entries_of(const Volume& volume, const std::byte* table) {
     LayerHead head;
     std::memcpy(&head, table, sizeof head);
-    if (checksum_of({table + sizeof head.checksum, table_bytes(volume) - sizeof head.checksum}) !=
-        head.checksum)
+    const std::size_t size = table_bytes(&volume) - sizeof head.checksum;
+    return checksum_of({table + sizeof head.checksum, size}) == head.checksum ? table + sizeof head
+                                                                              : nullptr;
+}
+
+/// The chunks of a layer that may hold active cells. @param table of the layer, as in the file
+/// @param table_next at the next step, between the two; else null
+/// @param out gets their places, ascending @return their number; -1: the checksum does not match
+EXPORT("candidates")
+int candidates(const Volume* volume, const std::byte* table, const std::byte* table_next,
+               std::uint32_t* out) {
+    const std::byte* const now = entries_of(*volume, table);
+    const std::byte* const next = table_next ? entries_of(*volume, table_next) : nullptr;
+    if (!now || (table_next && !next))
         return -1;
     const std::size_t size = volume->has_since ? sizeof(ChunkEntry) : kEntryWithoutSince;
     int count = 0;
     for (std::uint32_t i = 0; i < volume->chunks.chunks_of_layer(); ++i) {
-        ChunkEntry entry;
-        std::memcpy(&entry, table + sizeof head + i * size, size);
-        if (volume->cut && volume->cut->may_hold(entry.low, entry.high))
+        ChunkEntry entry, later;
+        std::memcpy(&entry, now + i * size, size);
+        if (volume->ranks && next) {
+            std::memcpy(&later, next + i * size, size);
+            volume->ranks->blend({&entry.low, 1}, {&entry.high, 1}, {&later.low, 1},
+                                 {&later.high, 1});
+        }
+        if (!volume->has_bricks || (volume->cut && volume->cut->may_hold(entry.low, entry.high)))
             out[count++] = i;
     }
     return count;
@@ -285,10 +345,22 @@ int unpack(const Volume* volume, std::uint32_t layer, std::uint32_t place, const
                         {record + head, count - head}, {out, chunk_bytes(volume, layer, place)});
 }
 /// The bricks of a record that may hold active cells, and in `around` the chunks that they need.
+/// @param record_next at the next step, between the two; else null
 EXPORT("bricks")
-std::uint32_t bricks(const Volume* volume, const std::byte* record, std::uint32_t* around) {
-    ChunkBricks found;
+std::uint32_t bricks(const Volume* volume, const std::byte* record, const std::byte* record_next,
+                     std::uint32_t* around) {
+    ChunkBricks found, next;
     std::memcpy(found.data(), record + sizeof(RecordChecksum), sizeof found);
+    if (volume->ranks && record_next) {
+        std::memcpy(next.data(), record_next + sizeof(RecordChecksum), sizeof next);
+        const auto halves = [](ChunkBricks& of) {
+            return std::pair(std::span(of).first(kBricksOfChunk),
+                             std::span(of).last(kBricksOfChunk));
+        };
+        const auto [low, high] = halves(found);
+        const auto [low_next, high_next] = halves(next);
+        volume->ranks->blend(low, high, low_next, high_next);
+    }
     const BricksOfChunk bits = volume->cut ? bricks_of(found, *volume->cut) : 0;
     *around = joined(bits, kChunksOfBrickWithNormals);
     return bits;
@@ -297,11 +369,13 @@ std::uint32_t bricks(const Volume* volume, const std::byte* record, std::uint32_
 /// Finds the active cells of a chunk, and makes their triangles.
 /// @param of_bricks its bricks that may hold active cells
 /// @param around values of the chunks around it by their bit (index/search/chunk_reach.h); null: not needed
+/// @param around_next those at the next step, between the two; else null
 /// @return number of cells
 EXPORT("find")
 std::uint32_t find(Volume* volume, std::uint32_t layer, std::uint32_t place,
-                   std::uint32_t of_bricks, const std::byte* const* around) {
-    const Cube of_chunk = fill_cube(*volume, layer, place, around);
+                   std::uint32_t of_bricks, const std::byte* const* around,
+                   const std::byte* const* around_next) {
+    const Cube of_chunk = fill_cube(*volume, layer, place, around, around_next);
     const StepValues& cube = of_chunk.values;
     const auto& first = of_chunk.first;
     const Query query{Instant(0), volume->isovalue};
@@ -336,12 +410,12 @@ std::uint32_t find(Volume* volume, std::uint32_t layer, std::uint32_t place,
 }
 
 /// The values of another array at the points that `find` has made of a chunk, interpolated between the
-/// ends of their edges. @param of the volume that was searched @param around chunks of the other array
+/// ends of their edges. @param of the volume that was searched @param around, around_next chunks of the other array
 /// @return their place in memory, a float for each point
 EXPORT("values")
 const float* values(Volume* other, const Volume* of, std::uint32_t layer, std::uint32_t place,
-                    const std::byte* const* around) {
-    const Cube of_chunk = fill_cube(*other, layer, place, around);
+                    const std::byte* const* around, const std::byte* const* around_next) {
+    const Cube of_chunk = fill_cube(*other, layer, place, around, around_next);
     other->surface.values = values_at(of_chunk.values, Instant(0), of->surface.mesh.vertices, 0);
     return other->surface.values.data();
 }

@@ -25,7 +25,18 @@ export interface Linked {
   background?: string;
   colors?: number;
   map?: string;
+  /** The ends of the color map. */
+  range?: number[];
   clip?: [axis: number, share: number];
+  /** A clip plane in any direction: a point on it, and its normal towards what is cut away, physical space. */
+  plane?: number[];
+  /** What is up in the picture; absent: the data's z. */
+  up?: number[];
+  /** So many 65536ths of the way to the next step. */
+  fraction?: number;
+  /** The file of the story beside the page, and its key that is told, from 1; 0: none. */
+  story?: string;
+  told?: number;
 }
 
 const numberOf = (text: string | null): number | undefined => {
@@ -33,17 +44,22 @@ const numberOf = (text: string | null): number | undefined => {
   return Number.isFinite(value) ? value : undefined;
 };
 
+/** A name beside the page: no folder, no other server. */
+export const isPlain = (name: string): boolean => /^[^/\\:?#]+$/.test(name) && !name.startsWith(".");
+
 /** What a link says; anything else in it is ignored. */
 export function linked(hash: string): Linked {
   const words = new URLSearchParams(hash.replace(/^#/, ""));
   const state: Linked = {};
   const file = words.get("file");
-  // A name beside the page: no folder, no other server.
-  if (file && /^[^/\\:?#]+$/.test(file) && !file.startsWith(".")) state.file = file;
-  for (const name of ["array", "step", "colors", "picked"] as const) {
+  if (file && isPlain(file)) state.file = file;
+  const story = words.get("story");
+  if (story && isPlain(story)) state.story = story;
+  for (const name of ["array", "step", "colors", "picked", "told", "fraction"] as const) {
     const value = numberOf(words.get(name));
     if (value !== undefined && Number.isInteger(value) && value >= 0) state[name] = value;
   }
+  if (state.fraction !== undefined && state.fraction > 65535) delete state.fraction;
   state.isovalue = numberOf(words.get("isovalue"));
   const opacity = numberOf(words.get("opacity"));
   if (opacity !== undefined && opacity > 0 && opacity <= 1) state.opacity = opacity;
@@ -58,8 +74,13 @@ export function linked(hash: string): Linked {
   if (map && (MAP_NAMES as string[]).includes(map)) state.map = map;
   const clip = (words.get("clip") ?? "").split(",").map(Number);
   if (clip.length === 2 && [0, 1, 2].includes(clip[0]!) && clip[1]! >= 0 && clip[1]! <= 1) state.clip = clip as [number, number];
-  const view = (words.get("view") ?? "").split(",").map(Number);
-  if (view.length === 6 && view.every(Number.isFinite)) state.view = view;
+  for (const [name, count] of [["view", 6], ["up", 3], ["plane", 6], ["range", 2]] as const) {
+    const numbers = (words.get(name) ?? "").split(",").map(Number);
+    if (numbers.length === count && numbers.every(Number.isFinite)) state[name] = numbers;
+  }
+  for (const direction of [state.up, state.plane?.slice(3)])
+    if (direction && !(Math.hypot(...direction) > 0)) delete state[direction === state.up ? "up" : "plane"];
+  if (state.range && !(state.range[0]! < state.range[1]!)) delete state.range;
   for (const name of ["color", "background"] as const) {
     const value = words.get(name);
     if (value && /^#[0-9a-f]{6}$/i.test(value)) state[name] = value;

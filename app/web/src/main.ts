@@ -1,13 +1,20 @@
 // The page: opens the index beside it, and shows the surface that the controls and the link ask for.
 import "./style.css";
-import { linked, linkOf, MOST_SURFACES, type Linked, type Surface } from "./link";
+import { Vector3 } from "three";
+import { isPlain, linked, linkOf, MOST_SURFACES, type Linked, type Surface } from "./link";
 import type { Asked, Found, FromWorker, ToWorker } from "./messages";
 import type { Info } from "./reader/index_file";
+import { misfit, storyAt, type Key } from "./story/story";
+import { Teller } from "./story/teller";
+import { sightOf } from "./story/way";
 import { colorsOf, drawLegend, MAP_NAMES, type MapName } from "./view/colors";
 import { Histogram } from "./view/histogram";
-import { Scene, type View } from "./view/scene";
+import { Scene } from "./view/scene";
 
 const LOOK = 2000; // milliseconds between two looks at a file that grows
+const FRACTIONS = 65536; // moments from a step to the next
+/** Backgrounds of stories by their names. */
+const BACKGROUNDS: Record<string, string> = { dark: "#0f1116", light: "#f0f1f2", white: "#ffffff", gray: "#454749", gradient: "#1c212a" };
 /** Colors of surfaces that are added. */
 const COLORS = ["#e8d3a0", "#6aa9e9", "#e07a5f", "#81b29a", "#b18ae0", "#f2cc5c", "#5fc9c9", "#d98cb3"];
 
@@ -33,6 +40,7 @@ const color = part<HTMLInputElement>("color");
 const opacity = part<HTMLInputElement>("opacity");
 const background = part<HTMLInputElement>("background");
 
+const between = part<HTMLInputElement>("between");
 const colorBy = part<HTMLSelectElement>("color-by");
 const map = part<HTMLSelectElement>("map");
 const clipAxis = part<HTMLSelectElement>("clip-axis");
@@ -40,6 +48,17 @@ const clipShare = part<HTMLInputElement>("clip-share");
 map.replaceChildren(...MAP_NAMES.map((name) => new Option(name, name)));
 
 const scene = new Scene(part<HTMLCanvasElement>("picture"), part("ticks"));
+const teller = new Teller(part("card"), part<HTMLButtonElement>("tell"), {
+  show: showKey,
+  go: goToKey,
+  changed: () => {
+    document.body.classList.toggle("told", teller.told > 0);
+    scene.draw();
+    keepSoon();
+  },
+});
+// What stands above the bar follows its height.
+new ResizeObserver(() => document.documentElement.style.setProperty("--bar", `${part("bar").offsetHeight}px`)).observe(part("bar"));
 const histogram = new Histogram(part<HTMLCanvasElement>("histogram"));
 const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
 const say = (words: ToWorker) => worker.postMessage(words);
@@ -47,7 +66,11 @@ const say = (words: ToWorker) => worker.postMessage(words);
 let state: Linked = linked(location.hash);
 let infos: Info[] = [];
 let levels = 1;
-let asked: Asked = { array: 0, step: 0, isovalues: [0], colors: null };
+let asked: Asked = { array: 0, step: 0, fraction: 0, isovalues: [0], colors: null };
+let range: number[] | null = null; // the ends of the color map; null: all values
+let plane: number[] | null = null; // of a clip plane that a story or a link has: a point on it, and its normal
+let story: Key[] | null = null;
+let badStory = ""; // why there is none
 let surfaces: Surface[] = [{ isovalue: 0, color: COLORS[0]!, opacity: 1 }];
 let picked = 0;
 let grows = false; // the server says that the file may
@@ -55,6 +78,7 @@ let last: { asked: Asked; found: Found[] } | null = null;
 let number = 0;
 let shown = 0;
 let playing = false;
+let played = { at: 0, now: 0 }; // between steps: where playing is, and since when
 let turn = 0; // the timer of the next step
 let later = 0; // the timer of the address
 
@@ -85,11 +109,20 @@ function ask(coarse: boolean): void {
   say({ kind: "find", number: ++number, asked, levels: wanted });
   chip.textContent = "searching …";
   listSurfaces();
-  time.value = String(asked.step);
-  const { times, timeUnit } = info();
-  moment.textContent = `step ${asked.step + 1} of ${times.length}: ${words(times[asked.step]!)} ${timeUnit}`;
+  time.step = between.checked ? "any" : "1";
+  time.value = String(asked.step + asked.fraction / FRACTIONS);
+  moment.textContent = momentWords();
   if (coarse) keepSoon();
   else keep();
+}
+
+function momentWords(): string {
+  const { times, timeUnit } = info();
+  const [first, second] = [times[asked.step]!, times[asked.step + 1] ?? 0];
+  const share = asked.fraction / FRACTIONS;
+  return asked.fraction
+    ? `between steps ${asked.step + 1} and ${asked.step + 2} of ${times.length}: ${words(first + share * (second - first))} ${timeUnit}`
+    : `step ${asked.step + 1} of ${times.length}: ${words(first)} ${timeUnit}`;
 }
 
 /** Shows the list of surfaces, and the values of the one that is changed. */
@@ -130,10 +163,12 @@ function keepSoon(): void {
 function keep(): void {
   state = {
     ...(state.file ? { file: state.file } : {}),
-    array: asked.array, step: asked.step, isovalue: surfaces[picked]!.isovalue, view: scene.view, background: background.value,
+    array: asked.array, step: asked.step, ...(asked.fraction ? { fraction: asked.fraction } : {}), isovalue: surfaces[picked]!.isovalue, view: scene.view, background: background.value,
     ...(surfaces.length > 1 ? { surfaces, picked } : { color: surfaces[0]!.color, opacity: surfaces[0]!.opacity }),
-    ...(asked.colors === null ? {} : { colors: asked.colors, map: map.value }),
-    ...(clipAxis.value === "" ? {} : { clip: [Number(clipAxis.value), Number(clipShare.value)] as [number, number] }),
+    ...(scene.up ? { up: scene.up } : {}),
+    ...(asked.colors === null ? {} : { colors: asked.colors, map: map.value, ...(range ? { range } : {}) }),
+    ...(clipAxis.value === "plane" ? { plane: plane! } : clipAxis.value === "" ? {} : { clip: [Number(clipAxis.value), Number(clipShare.value)] as [number, number] }),
+    ...(story && state.story ? { story: state.story, told: teller.told } : {}),
   };
   history.replaceState(null, "", linkOf(state));
 }
@@ -152,20 +187,82 @@ function choose(array: number, of?: Surface[]): void {
 function paint(): void {
   const colors = (last?.asked ?? asked).colors;
   const of = colors === null ? null : infos[colors]!;
+  const [low, high] = (range ?? [of?.low ?? 0, of?.high ?? 0]) as [number, number];
   const name = map.value as MapName;
   part("legend").hidden = of === null;
   if (of) {
     drawLegend(part<HTMLCanvasElement>("legend-colors"), name);
-    part("legend-words").textContent = `${words(of.low)} to ${words(of.high)} ${of.valueUnit}`;
+    part("legend-words").textContent = `${words(low)} to ${words(high)} ${of.valueUnit}`;
   }
   scene.look(surfaces);
-  if (last) scene.show(last.found, last.found.map(({ values }) => (of && values ? colorsOf(name, values, of.low, of.high) : null)));
+  if (last) scene.show(last.found, last.found.map(({ values }) => (of && values ? colorsOf(name, values, low, high) : null)));
 }
 
 function clip(): void {
-  clipShare.hidden = clipAxis.value === "";
-  scene.clip(info(), clipAxis.value === "" ? null : { axis: Number(clipAxis.value), share: Number(clipShare.value) });
+  const { value } = clipAxis;
+  clipShare.hidden = value === "" || value === "plane";
+  part("clip-plane").hidden = plane === null;
+  const cut = value === "plane" ? { point: plane!.slice(0, 3), normal: plane!.slice(3) } : value === "" ? null : { axis: Number(value), share: Number(clipShare.value) };
+  scene.clip(info(), cut);
   keepSoon();
+}
+
+/** Shows all of a story's key but its view. */
+function showKey(key: Key): void {
+  if (playing) play.click();
+  const array = key.array === undefined ? asked.array : arrayCalled(key.array);
+  let shown = key.surfaces ?? (array === asked.array ? surfaces : undefined);
+  if (array !== asked.array) choose(array, shown);
+  shown ??= surfaces;
+  picked = Math.min(key.picked ?? picked, shown.length - 1);
+  surfaces = shown.map((each, i) => (i === picked && key.isovalue !== undefined ? { ...each, isovalue: key.isovalue } : each));
+  between.checked = key.blends ?? between.checked;
+  if (key.step !== undefined) asked = { ...asked, step: key.step, fraction: between.checked && key.step + 1 < info().times.length ? key.fraction : 0 };
+  if (key.coloring) {
+    const { by, map: name, array: of } = key.coloring;
+    const first = infos.findIndex((_, i) => i !== array);
+    const colors = by !== "value" ? -1 : of === "" ? first : arrayCalled(of);
+    asked = { ...asked, colors: colors < 0 ? null : colors };
+    colorBy.value = colors < 0 ? "" : String(colors);
+    map.value = (MAP_NAMES as string[]).includes(name) ? name : "viridis";
+    range = key.coloring.range ?? null;
+  }
+  if (key.background !== undefined) {
+    background.value = BACKGROUNDS[key.background] ?? BACKGROUNDS["dark"]!;
+    scene.background(background.value);
+  }
+  if (key.clip) {
+    plane = key.clip.shown ? [...key.clip.point, ...key.clip.normal] : null;
+    clipAxis.value = plane ? "plane" : "";
+    clip();
+  }
+  ask(false);
+}
+/** The number of an array; empty: the first. */
+const arrayCalled = (name: string): number => (name === "" ? 0 : infos.findIndex((each) => each.array === name));
+
+/** Goes to the view of a story's key. */
+function goToKey(key: Key, leaps: boolean): void {
+  const { origin } = info();
+  if (scene.stand(key, origin)) return;
+  const { center, radius } = scene.data;
+  const to = sightOf(key, origin, center, radius, scene.aspect);
+  if (!to) return;
+  const still = leaps || matchMedia("(prefers-reduced-motion: reduce)").matches;
+  teller.card.dataset["moving"] = String(!still);
+  scene.go(to, still);
+}
+
+/** The line from the card to what its text is about. */
+function drawStoryLine(): void {
+  const line = part("card-line");
+  const about = teller.key?.place;
+  const at = about && !document.body.classList.contains("inside") ? scene.placeInPicture(about.map((each, i) => each - info().origin[i]!)) : null;
+  line.toggleAttribute("hidden", at === null);
+  if (!at) return;
+  const box = teller.card.getBoundingClientRect();
+  const ends = { x1: Math.min(Math.max(at.x, box.left), box.right), y1: Math.min(Math.max(at.y, box.top), box.bottom), x2: at.x, y2: at.y };
+  for (const [name, value] of Object.entries(ends)) line.firstElementChild!.setAttribute(name, String(value));
 }
 
 /** The file has more steps: what is shown stays, but for the last step, which the new last one follows. */
@@ -177,6 +274,7 @@ function grown(found: Info[]): void {
   const steps = info().times.length;
   time.max = String(steps - 1);
   if (wholeRange) to.value = time.max;
+  if (wasLast) asked.fraction = 0;
   asked.step = wasLast ? steps - 1 : Math.min(asked.step, steps - 1);
   histogram.show(info());
   ask(false);
@@ -186,8 +284,10 @@ function opened(found: Info[], count: number): void {
   infos = found;
   levels = count;
   arrays.replaceChildren(...infos.map((each, i) => new Option(each.array || "values", String(i))));
-  const linkedView = state.view;
+  const { view, up, told } = state;
   asked.step = Math.min(state.step ?? 0, infos[0]!.times.length - 1);
+  asked.fraction = asked.step + 1 < infos[0]!.times.length ? (state.fraction ?? 0) : 0;
+  between.checked = asked.fraction > 0;
   const one = { isovalue: state.isovalue ?? NaN, color: state.color ?? COLORS[0]!, opacity: state.opacity ?? 1 };
   const given = state.surfaces ?? (state.isovalue === undefined ? undefined : [one]);
   surfaces = given ?? [{ ...one, isovalue: 0 }];
@@ -199,16 +299,27 @@ function opened(found: Info[], count: number): void {
   if (state.colors !== undefined && state.colors < infos.length) asked.colors = state.colors;
   colorBy.value = asked.colors === null ? "" : String(asked.colors);
   if (state.map) map.value = state.map;
+  range = state.range ?? null;
+  plane = state.plane ?? null;
   const cut = state.clip;
   scene.frame(info());
-  if (linkedView) scene.view = linkedView as View;
+  const place = (first: number) => new Vector3(...(view!.slice(first, first + 3) as [number, number, number]));
+  if (view) scene.sight = { eye: place(0), target: place(3), up: up ? new Vector3(...(up as [number, number, number])) : new Vector3(0, 0, 1) };
   document.body.classList.add("open");
   if (cut) {
     clipAxis.value = String(cut[0]);
     clipShare.value = String(cut[1]);
+  } else if (plane) {
+    clipAxis.value = "plane";
   }
   clip();
-  ask(false);
+  if (story && !badStory) {
+    const why = misfit(story, infos[0]!.times.length, (name) => arrayCalled(name) >= 0);
+    if (why) [story, badStory] = [null, `${state.story}: ${why}`];
+  }
+  // A link that has a view of its own has all the rest, too; one that names a step alone shows that.
+  if (story) teller.open(story, view ? (told ?? 0) : (told ?? null), view === undefined);
+  if (view || !teller.told) ask(false);
 }
 
 worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
@@ -231,18 +342,32 @@ worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
   chip.textContent = count === 0 && exact ? "no surface at this isovalue" : exact ? `exact: ${cells} cells` : `preview, 1/${2 ** data.level} of the resolution`;
   chip.dataset["exact"] = String(exact);
   chip.dataset["cells"] = String(count);
+  if (badStory && exact) chip.textContent += `; ${badStory}`;
   chip.title = `${data.requests} requests, ${(data.bytes / 1e6).toFixed(1)} MB`;
   if (!playing || !data.last) return;
   clearTimeout(turn);
-  turn = window.setTimeout(next, 1000 / Number(speed.value));
+  turn = window.setTimeout(next, between.checked ? 0 : 1000 / Number(speed.value));
 };
+
+/** @param at steps from the first one, and a part of the way to the next */
+function momentAt(at: number): { step: number; fraction: number } {
+  const number = Math.round(between.checked ? at * FRACTIONS : Math.round(at) * FRACTIONS);
+  return { step: Math.floor(number / FRACTIONS), fraction: number % FRACTIONS };
+}
 
 function next(): void {
   if (!playing) return;
   const end = info().times.length - 1;
   const within = (text: string, otherwise: number) => (/^\d+$/.test(text) ? Math.min(end, Number(text)) : otherwise);
   const [first, final] = [within(from.value, 0), within(to.value, end)];
-  asked = { ...asked, step: asked.step < first || asked.step >= final ? first : asked.step + 1 };
+  if (between.checked) {
+    const now = performance.now();
+    const at = played.at + Math.min(1, ((now - played.now) / 1000) * Number(speed.value));
+    played = { at: at < first || played.at >= final ? first : Math.min(at, final), now };
+    asked = { ...asked, ...momentAt(info().gaps.includes(Math.floor(played.at)) ? Math.floor(played.at) : played.at) };
+  } else {
+    asked = { ...asked, fraction: 0, step: asked.step < first || asked.step >= final ? first : asked.step + 1 };
+  }
   ask(false);
 }
 
@@ -256,18 +381,23 @@ isovalue.addEventListener("change", () => {
   change({ isovalue: value });
   ask(false);
 });
+between.addEventListener("change", () => {
+  if (!between.checked) asked = { ...asked, fraction: 0 };
+  ask(false);
+});
 arrays.addEventListener("change", () => {
   choose(Number(arrays.value));
   scene.frame(info());
   ask(false);
 });
 time.addEventListener("input", () => {
-  asked = { ...asked, step: Number(time.value) };
+  asked = { ...asked, ...momentAt(Number(time.value)) };
   ask(false);
 });
 play.addEventListener("click", () => {
   playing = !playing;
   play.textContent = playing ? "Pause" : "Play";
+  played = { at: asked.step + asked.fraction / FRACTIONS, now: performance.now() };
   if (playing) next();
 });
 surface.addEventListener("change", () => {
@@ -300,6 +430,7 @@ const style = () => {
 };
 for (const input of [color, opacity, background]) input.addEventListener("input", style);
 colorBy.addEventListener("change", () => {
+  range = null;
   asked = { ...asked, colors: colorBy.value === "" ? null : Number(colorBy.value) };
   ask(false);
 });
@@ -319,17 +450,18 @@ part("save").addEventListener("click", () => {
     if (!blob) return;
     const link = document.createElement("a");
     link.href = URL.createObjectURL(blob);
-    link.download = `${info().array || "surface"}_${asked.step}.png`;
+    link.download = `${info().array || "surface"}_${+(asked.step + asked.fraction / FRACTIONS).toFixed(4)}.png`;
     link.click();
     URL.revokeObjectURL(link.href);
   });
 });
 document.addEventListener("keydown", (event) => {
   if (event.target instanceof HTMLInputElement || !infos.length) return;
+  if (teller.pressed(event)) return event.preventDefault();
   const steps = info().times.length;
   if (event.key === " ") play.click();
-  else if (event.key === "ArrowRight") asked = { ...asked, step: Math.min(steps - 1, asked.step + 1) };
-  else if (event.key === "ArrowLeft") asked = { ...asked, step: Math.max(0, asked.step - 1) };
+  else if (event.key === "ArrowRight") asked = { ...asked, step: Math.min(steps - 1, asked.step + 1), fraction: 0 };
+  else if (event.key === "ArrowLeft") asked = { ...asked, step: asked.fraction ? asked.step : Math.max(0, asked.step - 1), fraction: 0 };
   else return;
   event.preventDefault();
   if (event.key !== " ") ask(false);
@@ -345,9 +477,14 @@ void scene
       },
       step: (steps) => {
         const count = info().times.length;
-        asked = { ...asked, step: (asked.step + steps + count) % count };
+        asked = { ...asked, step: (asked.step + steps + count) % count, fraction: 0 };
         ask(false);
       },
+      card: () => {
+        const { key, heading, can } = teller;
+        return key ? { heading, text: key.text, ...can } : null;
+      },
+      tell: (button) => teller.press(button),
       words: () => `${info().array || "values"} ${words(surfaces[picked]!.isovalue)} ${info().valueUnit}\n${moment.textContent ?? ""}`,
     },
     (inside) => {
@@ -364,6 +501,18 @@ scene.moved = () => {
   drawScale();
   keepSoon();
 };
+scene.arrived = () => (teller.card.dataset["moving"] = "false");
+scene.drawn = drawStoryLine;
+
+/** The story beside the page; what is wrong with it is said, and the data are shown all the same. */
+async function openStory(name: string, headers: Record<string, string>): Promise<void> {
+  try {
+    story = await storyAt(name, headers);
+    state.story = name;
+  } catch (error) {
+    badStory = error instanceof Error ? error.message : String(error);
+  }
+}
 
 async function begin(): Promise<void> {
   background.value = state.background ?? (matchMedia("(prefers-color-scheme: light)").matches ? "#f4f5f7" : "#0f1116");
@@ -375,11 +524,13 @@ async function begin(): Promise<void> {
   // The server, or whoever put the page there, says which files lie beside it.
   const answer = await fetch("site.json", { cache: "no-store", headers });
   if (!answer.ok && !state.file) throw new Error("no index is named in the link, and site.json is not there");
-  const site = answer.ok ? ((await answer.json()) as { files: string[]; follow?: boolean }) : { files: [] };
+  const site = answer.ok ? ((await answer.json()) as { files: string[]; follow?: boolean; story?: string }) : { files: [] };
   const file = state.file ?? site.files[0];
   grows = site.follow === true;
   if (!file) throw new Error("site.json names no index");
   state.file = file;
+  const name = state.story ?? site.story;
+  if (name !== undefined && isPlain(name)) await openStory(name, headers);
   document.title = `${file} - Isochron`;
   say({ kind: "open", address: new URL(encodeURIComponent(file), location.href.split("#")[0]).href, headers });
   if (grows) setInterval(() => document.hidden || say({ kind: "look" }), LOOK);

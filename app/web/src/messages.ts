@@ -1,10 +1,12 @@
 // What the page and its worker say to each other.
 import type { Info } from "./reader/index_file";
 
-/** What is shown: surfaces of one array at one step. */
+/** What is shown: surfaces of one array at a step, or at a moment between two. */
 export interface Asked {
   array: number;
   step: number;
+  /** So many 65536ths of the way to the next step. */
+  fraction: number;
   isovalues: number[];
   /** The array whose values color the surface; null: its own color. */
   colors: number | null;

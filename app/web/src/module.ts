@@ -13,14 +13,15 @@ interface Exports {
   at(volume: number, place: number): number;
   chunk_bytes(volume: number, layer: number, place: number): number;
   table_bytes(volume: number): number;
-  set_levels(volume: number, bytes: number, count: number): number;
-  set_isovalue(volume: number, isovalue: number): number;
-  candidates(volume: number, table: number, out: number): number;
+  set_levels(volume: number, which: number, bytes: number, count: number): number;
+  set_query(volume: number, fraction: number, isovalue: number): number;
+  set_colors(volume: number, fraction: number): void;
+  candidates(volume: number, table: number, tableNext: number, out: number): number;
   check(volume: number, record: number, count: number): number;
   unpack(volume: number, layer: number, place: number, record: number, count: number, out: number): number;
-  bricks(volume: number, record: number, around: number): number;
-  find(volume: number, layer: number, place: number, bricks: number, around: number): number;
-  values(other: number, of: number, layer: number, place: number, around: number): number;
+  bricks(volume: number, record: number, recordNext: number, around: number): number;
+  find(volume: number, layer: number, place: number, bricks: number, around: number, aroundNext: number): number;
+  values(other: number, of: number, layer: number, place: number, around: number, aroundNext: number): number;
   found(volume: number, out: number): void;
 }
 

@@ -72,7 +72,7 @@ async function find(wish: Extract<ToWorker, { kind: "find" }>, stop: AbortSignal
     const found: Found[] = [];
     for (const isovalue of asked.isovalues) {
       const pieces: Piece[] = [];
-      await surfaces.find(asked.step, isovalue, (piece) => pieces.push(piece), stop, colors);
+      await surfaces.find(asked.step, asked.fraction, isovalue, (piece) => pieces.push(piece), stop, colors);
       found.push(whole(pieces));
     }
     say(

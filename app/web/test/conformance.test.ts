@@ -56,10 +56,9 @@ function series(type: keyof typeof ARRAYS, size: readonly [number, number, numbe
 }
 
 /** The ids that the program finds. */
-function idsOf(index: string, array: string | null, step: number, level: number, isovalue: number): Uint32Array {
+function idsOf(index: string, step: number, fraction: number, level: number, isovalue: number): Uint32Array {
   const out = join(folder, "ids.bin");
-  const more = array === null ? [] : ["--array", array];
-  execFileSync(program, ["query", index, `--isovalue=${isovalue}`, "--step", `${step}`, "--level", `${level}`, "--ids", out, "--force", "--repeat", "0", ...more], { stdio: "pipe" });
+  execFileSync(program, ["query", index, `--isovalue=${isovalue}`, "--step", `${step}`, "--fraction", `${fraction}`, "--level", `${level}`, "--ids", out, "--force", "--repeat", "0"], { stdio: "pipe" });
   return new Uint32Array(Uint8Array.from(readFileSync(out)).buffer);
 }
 
@@ -69,19 +68,48 @@ const CASES: [string, keyof typeof ARRAYS, [number, number, number], string[]][]
   ["lz4", "i16", [40, 20, 35], ["--codec", "lz4"]],
   ["zstd", "f32", [40, 20, 35], ["--codec", "zstd"]],
   ["scan", "u8", [33, 18, 20], ["--tiers", "tree"]],
+  ["scan of floats", "f32", [20, 18, 20], ["--tiers", "tree"]],
 ];
 
 test.each(CASES)("finds the cells of %s", async (name, type, size, options) => {
   const index = join(folder, `${name}.isochron`);
   execFileSync(program, ["build", ...series(type, size, 3, 7), "-o", index, "--dims", ...size.map(String), "--type", type, ...options], { stdio: "pipe" });
+  await compare(name, index, size);
+});
+
+test("finds the cells of scaled whole numbers", async () => {
+  // NIfTI, which has a slope.
+  const size = [34, 21, 20] as const;
+  const files = series("i16", size, 3, 7).map((raw) => {
+    const header = new DataView(new ArrayBuffer(352));
+    header.setInt32(0, 348, true);
+    [3, ...size, 1, 1, 1, 1].forEach((n, i) => header.setInt16(40 + 2 * i, n, true));
+    header.setInt16(70, 4, true); // i16
+    header.setInt16(72, 16, true);
+    [1, 1, 1, 1].forEach((n, i) => header.setFloat32(76 + 4 * i, n, true));
+    [352, -0.37, 5.25].forEach((n, i) => header.setFloat32(108 + 4 * i, n, true));
+    new TextEncoder().encode("n+1").forEach((byte, i) => header.setUint8(344 + i, byte));
+    const nifti = raw.replace(".raw", ".nii");
+    writeFileSync(nifti, Buffer.concat([Buffer.from(header.buffer), readFileSync(raw)]));
+    return nifti;
+  });
+  const index = join(folder, "scaled.isochron");
+  execFileSync(program, ["build", ...files, "-o", index], { stdio: "pipe" });
+  await compare("scaled", index, size);
+});
+
+/** Compares random surfaces of an index of three steps. */
+async function compare(name: string, index: string, size: readonly number[]): Promise<void> {
   const source = new FileSource(index);
   const file = await IndexFile.open(source, module);
   const [array] = file.arrays;
   expect(array!.info.vertices).toEqual(size);
-  const next = random(CASES.findIndex((each) => each[0] === name) + 1);
+  const next = random(CASES.findIndex((each) => each[0] === name) + 2);
   for (let round = 0; round < rounds; ++round) {
     const level = round % 2 ? Math.floor(next() * array!.levels.length) : 0;
     const step = Math.floor(next() * 3);
+    // Every second one between two steps, half of these where blends are ties of the isovalue.
+    const fraction = round % 4 < 2 || step === 2 ? 0 : round % 8 < 4 ? 32768 : 1 + Math.floor(next() * 65535);
     const { low, high } = array!.info;
     let isovalue = low + (high - low) * (1.1 * next() - 0.05);
     if (round % 3 === 0) isovalue = Math.round(isovalue); // a tie of whole numbers
@@ -89,21 +117,21 @@ test.each(CASES)("finds the cells of %s", async (name, type, size, options) => {
     const cells = array!.levels[level]!.vertices.map((n) => n - 1);
     const ids: number[] = [];
     let triangles = 0;
-    await surfaces.find(step, isovalue, (piece) => {
+    await surfaces.find(step, fraction, isovalue, (piece) => {
       for (let i = 0; i < piece.cells.length; i += 3)
         ids.push((piece.cells[i + 2]! * cells[1]! + piece.cells[i + 1]!) * cells[0]! + piece.cells[i]!);
       triangles += piece.triangles.length / 3;
-      for (const corner of piece.triangles) expect(corner).toBeLessThan(piece.points.length / 3);
+      expect(piece.triangles.every((corner) => corner < piece.points.length / 3)).toBe(true);
     });
     ids.sort((a, b) => a - b);
-    const wanted = idsOf(index, null, step, level, isovalue);
-    expect(ids.length, `${name} step ${step} level ${level} isovalue ${isovalue}`).toBe(wanted.length);
+    const wanted = idsOf(index, step, fraction, level, isovalue);
+    expect(ids.length, `${name} step ${step} + ${fraction} level ${level} isovalue ${isovalue}`).toBe(wanted.length);
     expect(Uint32Array.from(ids)).toEqual(wanted);
     expect(triangles).toBeGreaterThanOrEqual(ids.length);
     surfaces.close();
   }
   source.close();
-});
+}
 
 test("values of another array are interpolated where the surface cuts edges", async () => {
   const n = [20, 37, 18] as const;
@@ -124,7 +152,7 @@ test("values of another array are interpolated where the surface cuts edges", as
   expect(file.arrays.map((each) => each.info.array)).toEqual(["d", "w"]);
   const [surfaces, colors] = [0, 1].map((i) => new Surfaces(file, file.arrays[i]!, 0));
   let points = 0;
-  await surfaces!.find(0, 7.1, (piece) => {
+  await surfaces!.find(0, 0, 7.1, (piece) => {
     piece.values!.forEach((value, i) => {
       const [x, y, z] = piece.points.subarray(3 * i, 3 * i + 3);
       expect(value).toBeCloseTo(2 * (x! / 0.5) - 3 * (y! / 2) + 5 * z!, 3);

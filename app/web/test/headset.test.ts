@@ -24,7 +24,12 @@ beforeAll(async () => {
     return name;
   });
   execFileSync(program, ["build", ...names, "-o", join(folder, "ball.isochron"), "--dims", `${n}`, `${n}`, `${n}`, "--type", "f32"], { stdio: "pipe" });
-  writeFileSync(join(folder, "site.json"), JSON.stringify({ files: ["ball.isochron"] }));
+  writeFileSync(join(folder, "site.json"), JSON.stringify({ files: ["ball.isochron"], story: "tour.isochron-story" }));
+  const keys = [
+    { time: 0, text: "One." },
+    { time: 2, name: "near", text: "Two: the data stand to the right, and much smaller.", head: [0, 1.6, 0, 0, 0, 0, 1], room_from_physical: { translation: [0.1, 1.4, -0.8], rotation: [0, 0, 0, 1], scale: 0.01 } },
+  ];
+  writeFileSync(join(folder, "tour.isochron-story"), JSON.stringify({ format: "isochron keys", version: 1, keys }));
   server = new RangeServer([new URL("../site", import.meta.url).pathname, folder]);
   browser = await chromium.launch({ executablePath: process.env["CHROMIUM"] ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
   page = await browser.newPage({ viewport: { width: 800, height: 600 } });
@@ -34,7 +39,7 @@ beforeAll(async () => {
     window.headset.installRuntime({ forceInstall: true });
     window.headset.stereoEnabled = true;
     window.headset.position.set(0, 1.6, 0);`);
-  await page.goto(`${await server.listen()}#isovalue=9.5&background=%23000000`);
+  await page.goto(`${await server.listen()}#isovalue=9.5&background=%23000000&told=0`);
   await page.waitForSelector('#chip[data-exact="true"]');
   await page.click("#enter");
   await page.waitForFunction(() => document.body.classList.contains("inside"), null, { polling: 50 });
@@ -104,10 +109,37 @@ test("a hand moves the data, and two scale them", async () => {
   expect((await seen())[0]!.size).toBeGreaterThan(1.25 * moved.size);
 });
 
-test("sticks change time and isovalue, and leaving gives the page back", async () => {
+test("a story is told by stick and by the ray on its card, and the data stand where a step has them", async () => {
+  const told = (key: number) => page.waitForFunction((wanted) => location.hash.includes(`told=${wanted}`), key, { polling: 50 });
+  await act("headset.controllers.right.position.set(0.7, 1.35, 0.4); headset.controllers.left.position.set(-0.2, 1.2, -0.4);");
+  const before = (await seen())[0]!;
+  await page.evaluate("document.getElementById('tell').click()");
+  await told(1);
+  expect((await seen())[0]!.size).toBeCloseTo(before.size, 2); // it says nothing of the view
   await act("headset.controllers.right.updateAxis('thumbstick', 'x-axis', 1);");
   await act("headset.controllers.right.updateAxis('thumbstick', 'x-axis', 0);");
-  await page.waitForFunction(() => !location.hash.includes("step=0"), null, { polling: 50 });
+  await told(2);
+  for (let i = 0; i < 4; ++i) await act(""); // dark, then there
+  const after = (await seen())[0]!;
+  expect(after.size).toBeLessThan(0.8 * before.size);
+  if (process.env["ISOCHRON_SHOT"]) await page.screenshot({ path: `${process.env["ISOCHRON_SHOT"]}.story.png` });
+  // The card lies above the left hand; its buttons are at its lower edge, the first on the left.
+  await act("headset.controllers.left.position.set(0, 1.2, -0.5); headset.controllers.left.quaternion.set(0, 0, 0, 1);");
+  await act("headset.controllers.right.quaternion.set(0, 0, 0, 1); headset.controllers.right.position.set(-0.1, 1.2 + 0.19 - 0.086, -0.2);");
+  await act("headset.controllers.right.updateButtonValue('trigger', 1);");
+  await act("headset.controllers.right.updateButtonValue('trigger', 0);");
+  await told(1);
+  await act("headset.controllers.right.position.set(0.1, 1.2 + 0.19 - 0.086, -0.2);");
+  await act("headset.controllers.right.updateButtonValue('trigger', 1);");
+  await act("headset.controllers.right.updateButtonValue('trigger', 0);");
+  await told(0);
+  await act("headset.controllers.right.position.set(0.7, 1.35, 0.4);");
+});
+
+test("sticks change time and isovalue, and leaving gives the page back", async () => {
+  await act("headset.controllers.right.updateAxis('thumbstick', 'x-axis', 1);");
+  await page.waitForFunction(() => !location.hash.includes("step=0"), null, { polling: 50 }); // it goes round
+  await act("headset.controllers.right.updateAxis('thumbstick', 'x-axis', 0);");
   await act("headset.controllers.right.updateAxis('thumbstick', 'y-axis', 1);");
   await act("headset.controllers.right.updateAxis('thumbstick', 'y-axis', 0);");
   const isovalue = Number(new URLSearchParams((await page.evaluate("location.hash") as string).slice(1)).get("isovalue"));

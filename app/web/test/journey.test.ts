@@ -52,8 +52,8 @@ async function exact(page: Page): Promise<number> {
   await page.waitForSelector('#chip[data-exact="true"]');
   return Number(await page.getAttribute("#chip", "data-cells"));
 }
-function cells(step: number, isovalue: number): number {
-  const said = execFileSync(program, ["query", join(folder, "ball.isochron"), `--isovalue=${isovalue}`, "--step", `${step}`, "--repeat", "0", "--json"], { stdio: "pipe" });
+function cells(step: number, isovalue: number, fraction = 0): number {
+  const said = execFileSync(program, ["query", join(folder, "ball.isochron"), `--isovalue=${isovalue}`, "--step", `${step}`, "--fraction", `${fraction}`, "--repeat", "0", "--json"], { stdio: "pipe" });
   return (JSON.parse(said.toString()) as { active_cells: number }).active_cells;
 }
 const settled = (page: Page, wanted: number) => page.waitForFunction((count) => {
@@ -167,6 +167,116 @@ test("numbers the box, and says how long things are", async () => {
   const [words, width] = await page.$eval("#scale", (bar) => [bar.textContent, bar.getBoundingClientRect().width] as const);
   expect(Number(words)).toBeGreaterThan(0);
   expect(width).toBeGreaterThan(50);
+  await page.close();
+});
+
+test("shows exact cells between steps, by slider and while time plays", async () => {
+  const page = await open("#isovalue=12.5");
+  await settled(page, cells(0, 12.5));
+  await page.check("#between");
+  await page.$eval("#time", (slider: HTMLInputElement) => {
+    slider.value = "0.5";
+    slider.dispatchEvent(new Event("input"));
+  });
+  await settled(page, cells(0, 12.5, 32768));
+  expect(await page.textContent("#moment")).toMatch(/^between steps 1 and 2 of 3: 0.5/);
+  expect(page.url()).toContain("fraction=32768");
+  const again = await browser.newPage();
+  await again.goto(page.url());
+  await settled(again, cells(0, 12.5, 32768));
+  expect(await again.isChecked("#between")).toBe(true);
+  await page.selectOption("#speed", "1");
+  await page.evaluate(() => {
+    const moment = document.getElementById("moment")!;
+    const first = moment.textContent!;
+    new MutationObserver(() => {
+      const { textContent } = moment;
+      if (textContent!.startsWith("between") && textContent !== first) document.body.dataset["seen"] = textContent!;
+    }).observe(moment, { childList: true });
+  });
+  await page.click("#play");
+  await page.waitForSelector("body[data-seen]");
+  await page.click("#play");
+  await page.uncheck("#between");
+  await settled(page, cells(Math.floor(Number(await page.inputValue("#time"))), 12.5));
+  await page.close();
+  await again.close();
+});
+
+test("tells a story by keys, buttons and touch, and a link opens at its step", async () => {
+  const list = join(folder, "site.json");
+  const view = { room_from_physical: { translation: [-1, 1, -4], rotation: [-Math.SQRT1_2, 0, 0, Math.SQRT1_2], scale: 0.05 }, head: [0, 1.6, 0, 0, 0, 0, 1] };
+  const keys = [
+    { time: 0, text: "Step <b>one</b> <img src=x onerror=alert(1)>", isovalue: 12.5, step: 0 },
+    { time: 2, text: "", isovalue: 3 },
+    { time: 4, name: "half", text: "In between.", place: [20, 20, 20], isovalue: 9.5, step: 1, fraction: 16384, between: "blend", look: { background: "white" }, clip: { shown: true, point: [20, 20, 20], normal: [0, 0.6, 0.8] }, ...view },
+    { time: 6, text: "The end.", step: 2, between: "hold" },
+  ];
+  writeFileSync(join(folder, "tour.isochron-story"), JSON.stringify({ format: "isochron keys", version: 1, keys }));
+  writeFileSync(list, JSON.stringify({ files: ["ball.isochron"], story: "tour.isochron-story" }));
+  const page = await open();
+  const heading = () => page.textContent("#card .heading");
+  await settled(page, cells(0, 12.5));
+  expect(await heading()).toBe("1 of 3");
+  expect(await page.textContent("#card .text")).toBe(keys[0]!.text);
+  expect(await page.$("#card .text *")).toBeNull();
+  const first = await page.evaluate("location.hash") as string;
+  await page.keyboard.press("PageDown");
+  await settled(page, cells(1, 9.5, 16384));
+  await page.waitForSelector('#card[data-moving="false"]');
+  expect(await heading()).toBe("2 of 3: half");
+  expect(await page.inputValue("#clip-axis")).toBe("plane");
+  expect(await page.isVisible("#card-line line")).toBe(true);
+  await page.waitForFunction(() => location.hash.includes("told=3") && location.hash.includes("fraction=16384"));
+  const link = new URLSearchParams(new URL(page.url()).hash.slice(1));
+  expect(link.get("plane")).toBe("20,20,20,0,0.6,0.8");
+  expect(link.get("background")).toBe("#ffffff");
+  // The head at 0, 1.6, 0 among the data: (head - translation) / scale, turned back, less their origin; the camera is on the line ahead.
+  const camera = link.get("view")!.split(",").map(Number);
+  expect(camera[0]).toBeCloseTo(20, 3);
+  expect(camera[2]).toBeCloseTo(12, 3);
+  expect(camera.slice(3)).toEqual([expect.closeTo(20, 3), expect.closeTo(19.5, 3), expect.closeTo(12, 3)]);
+  const again = await browser.newPage({ viewport: { width: 800, height: 600 } });
+  await again.goto(page.url());
+  await settled(again, cells(1, 9.5, 16384));
+  expect(await again.textContent("#card .heading")).toBe("2 of 3: half");
+  expect(new URLSearchParams(new URL(again.url()).hash.slice(1)).get("view")).toBe(link.get("view"));
+  // A link that names a step alone shows it.
+  const bare = await browser.newPage();
+  await bare.goto(`${address}#told=3`);
+  await settled(bare, cells(1, 9.5, 16384));
+  await page.click("#card .next");
+  await settled(page, cells(2, 9.5));
+  expect(await page.isDisabled("#card .next")).toBe(true);
+  await page.$eval("#card", (card) => {
+    for (const [name, clientX] of [["pointerdown", 100], ["pointerup", 200]] as const) card.dispatchEvent(new PointerEvent(name, { pointerType: "touch", clientX }));
+  });
+  await settled(page, cells(1, 9.5, 16384));
+  await page.keyboard.press("Escape");
+  await page.waitForFunction(() => location.hash.includes("told=0"));
+  expect(await page.isVisible("#card")).toBe(false);
+  await page.keyboard.press("PageDown"); // belongs to a story that is told
+  expect(await page.isVisible("#card")).toBe(false);
+  await page.click("#tell");
+  await settled(page, cells(0, 12.5));
+  expect(first).toContain("told=1");
+  writeFileSync(list, JSON.stringify({ files: ["ball.isochron"] }));
+  await page.close();
+  await again.close();
+  await bare.close();
+});
+
+test.each<[string, string, RegExp]>([
+  ["damaged", '{"format": "isochron keys", "version": 1, "keys": [{"time": 0, "text": 7}]}', /tour.isochron-story: key 1: text: expected a text/],
+  ["about other data", '{"format": "isochron keys", "version": 1, "keys": [{"time": 0, "text": "a", "step": 3}]}', /tour.isochron-story: key 1: step: expected 0 to 2, got 3/],
+  ["too large", " ".repeat((1 << 22) + 1), /tour.isochron-story: expected at most 4 MiB/],
+])("says in a line that a story is %s, and shows the data", async (_, story, said) => {
+  writeFileSync(join(folder, "tour.isochron-story"), story);
+  const page = await open("#isovalue=12.5&story=tour.isochron-story");
+  await settled(page, cells(0, 12.5));
+  expect(await page.textContent("#chip")).toMatch(said);
+  expect(await page.isVisible("#card")).toBe(false);
+  expect(await page.isVisible("#tell")).toBe(false);
   await page.close();
 });
 

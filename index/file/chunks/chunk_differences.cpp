@@ -22,9 +22,13 @@ void take_differences(const T* HWY_RESTRICT values, std::size_t count, std::size
                       std::size_t step, T* HWY_RESTRICT out) {
     for (std::size_t i = step; i < count; ++i)
         out[i] = static_cast<T>(values[i] - values[i - step]);
+    if (step == 1) { // single values, for each of which a call of `memcpy` would take longer
+        for (std::size_t first = 0; first < count; first += block)
+            out[first] = values[first];
+        return;
+    }
     for (std::size_t first = 0; first < count; first += block)
-        for (std::size_t i = first; i < first + step; ++i)
-            out[i] = values[i];
+        std::copy_n(values + first, step, out + first);
 }
 
 /// Signed differences as unsigned numbers: 2 d, or -2 d - 1 where d is negative.

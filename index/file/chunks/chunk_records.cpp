@@ -17,12 +17,12 @@ constexpr std::uint64_t kNear = 16 << 10;
 
 } // namespace
 
-std::vector<RecordRun> runs_of(const ChunkLayer& table, std::span<const std::uint32_t> places) {
+std::vector<RecordRun> runs_of(const ChunkLayer& table, std::span<const std::uint32_t> places,
+                               std::uint64_t most) {
     std::vector<RecordRun> runs;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const std::uint64_t begin = table.offsets[places[i]], end = table.offsets[places[i] + 1];
-        if (!runs.empty() && begin - runs.back().end < kNear &&
-            end - runs.back().begin <= kRecordsTogether) {
+        if (!runs.empty() && begin - runs.back().end < kNear && end - runs.back().begin <= most) {
             runs.back().last = i;
             runs.back().end = end;
         } else {

@@ -47,8 +47,10 @@ struct RecordRun {
 constexpr std::uint64_t kRecordsTogether = 256 << 10;
 
 /// Puts places together whose records are near each other: reading what lies between them takes
-/// less time than another request. @param places ascending
-std::vector<RecordRun> runs_of(const ChunkLayer& table, std::span<const std::uint32_t> places);
+/// less time than another request. @param places ascending @param most bytes of a run, but for a
+/// record with more
+std::vector<RecordRun> runs_of(const ChunkLayer& table, std::span<const std::uint32_t> places,
+                               std::uint64_t most = kRecordsTogether);
 
 /// Makes sense of the bytes of one array. Throws Error, naming file, array, step and part, if they
 /// are damaged.

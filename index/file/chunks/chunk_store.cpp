@@ -137,33 +137,44 @@ ChunkStore::elsewhere(std::uint32_t step, const ChunkLayer& table,
     return by_step;
 }
 
-/// @param missing places that are not in the cache, ascending
-std::uint64_t ChunkStore::announce(std::uint32_t step, std::uint32_t layer,
-                                   std::span<const std::uint32_t> missing) const {
+/// Adds what is to be read for places that are not in the cache, ascending. @return its bytes
+std::uint64_t ChunkStore::add_ranges(std::uint32_t step, std::uint32_t layer,
+                                     std::span<const std::uint32_t> missing,
+                                     std::vector<ByteRange>& to) const {
     std::uint64_t bytes = 0;
     if (missing.empty())
         return bytes;
     const ChunkLayerPtr table = this->layer(step, layer);
     for (const RecordRun& run : runs_of(*table, missing)) {
-        source_.expect(run.begin, run.end - run.begin);
-        bytes += run.end - run.begin;
+        to.push_back({run.begin, run.end - run.begin});
+        bytes += to.back().bytes;
     }
-    return bytes + announce_earlier(step, layer, *table, missing);
+    return bytes + add_ranges_of_earlier(step, layer, *table, missing, to);
 }
 
-/// Announces the records of earlier steps that have the values of these places.
-std::uint64_t ChunkStore::announce_earlier(std::uint32_t step, std::uint32_t layer,
-                                           const ChunkLayer& table,
-                                           std::span<const std::uint32_t> missing) const {
+/// Adds the records of earlier steps that have the values of these places.
+std::uint64_t ChunkStore::add_ranges_of_earlier(std::uint32_t step, std::uint32_t layer,
+                                                const ChunkLayer& table,
+                                                std::span<const std::uint32_t> missing,
+                                                std::vector<ByteRange>& to) const {
     std::uint64_t bytes = 0;
     for (const PlacesOfStep& earlier : elsewhere(step, table, missing))
-        bytes += expect(earlier.step, layer, earlier.places);
+        bytes +=
+            add_ranges(earlier.step, layer, this->missing(earlier.step, layer, earlier.places), to);
     return bytes;
 }
 
-std::uint64_t ChunkStore::expect(std::uint32_t step, std::uint32_t layer,
-                                 std::span<const std::uint32_t> places) const {
-    return announce(step, layer, missing(step, layer, places));
+std::uint64_t ChunkStore::expect(std::uint32_t step, std::uint32_t first,
+                                 std::span<const std::vector<std::uint32_t>> places) const {
+    std::uint64_t bytes = 0;
+    std::vector<ByteRange> ranges;
+    for (const std::vector<std::uint32_t>& of_layer : places) {
+        const std::uint32_t layer = first++;
+        if (!of_layer.empty())
+            bytes += add_ranges(step, layer, missing(step, layer, of_layer), ranges);
+    }
+    source_.expect_each(ranges);
+    return bytes;
 }
 
 /// Whether the kernel, reading ahead of here, may get beyond the step. It has windows of some MiB,
@@ -187,15 +198,20 @@ std::uint64_t ChunkStore::fetch(std::uint32_t step, std::uint32_t layer,
                                 std::span<const std::uint32_t> places,
                                 const std::stop_token& stop) const {
     const std::vector<std::uint32_t> missing = this->missing(step, layer, places);
-    if (!fetches_all(missing.size()))
-        return announce(step, layer, missing);
+    std::vector<ByteRange> ranges;
+    if (!fetches_all(missing.size())) {
+        const std::uint64_t bytes = add_ranges(step, layer, missing, ranges);
+        source_.expect_each(ranges);
+        return bytes;
+    }
     const ChunkLayerPtr table = this->layer(step, layer);
     if (near_end(step, table->offsets.back()))
         source_.expect(table->offsets.front(), table->offsets.back() - table->offsets.front());
     else
         source_.fetch(table->offsets.front(), table->offsets.back() - table->offsets.front(), stop);
-    return table->offsets.back() - table->offsets.front() +
-           announce_earlier(step, layer, *table, missing);
+    const std::uint64_t earlier = add_ranges_of_earlier(step, layer, *table, missing, ranges);
+    source_.expect_each(ranges);
+    return table->offsets.back() - table->offsets.front() + earlier;
 }
 
 std::shared_ptr<Chunk> ChunkStore::decoded(std::uint32_t step, std::uint32_t layer,

@@ -69,9 +69,11 @@ class ChunkStore {
                                  std::span<const std::uint32_t> places,
                                  const std::stop_token& stop = {}) const;
     /// Announces that chunks will be needed soon, so that the disk works on many requests at once.
-    /// @param places ascending @return bytes that must be read for them
-    std::uint64_t expect(std::uint32_t step, std::uint32_t layer,
-                         std::span<const std::uint32_t> places) const;
+    /// @param first a layer, which may be 0 - 1 where it has no places
+    /// @param places of this layer and of those behind it, ascending in each
+    /// @return bytes that must be read for them
+    std::uint64_t expect(std::uint32_t step, std::uint32_t first,
+                         std::span<const std::vector<std::uint32_t>> places) const;
 
     /// Fetches; if most of a layer's bytes must be read, all of it is read in one go, and this
     /// waits until it has come from the disk.
@@ -159,10 +161,13 @@ class ChunkStore {
                       const std::stop_token& stop, const TakeRecord& f) const;
     std::vector<std::uint32_t> missing(std::uint32_t step, std::uint32_t layer,
                                        std::span<const std::uint32_t> places) const;
-    std::uint64_t announce(std::uint32_t step, std::uint32_t layer,
-                           std::span<const std::uint32_t> missing) const;
-    std::uint64_t announce_earlier(std::uint32_t step, std::uint32_t layer, const ChunkLayer& table,
-                                   std::span<const std::uint32_t> missing) const;
+    std::uint64_t add_ranges(std::uint32_t step, std::uint32_t layer,
+                             std::span<const std::uint32_t> missing,
+                             std::vector<ByteRange>& to) const;
+    std::uint64_t add_ranges_of_earlier(std::uint32_t step, std::uint32_t layer,
+                                        const ChunkLayer& table,
+                                        std::span<const std::uint32_t> missing,
+                                        std::vector<ByteRange>& to) const;
     std::vector<ByteCache::Key> keys(std::uint32_t step, std::uint32_t layer,
                                      std::span<const std::uint32_t> places) const;
     const ByteSource& source_;

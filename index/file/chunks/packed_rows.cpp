@@ -67,16 +67,15 @@ unsigned planes_of(const std::uint8_t* numbers, std::array<std::uint16_t, kMostB
         const auto sign = hn::BitCast(d, hn::BroadcastSignBit(hn::BitCast(s, fold)));
         fold = hn::Xor(hn::Add(fold, fold), sign);
     }
-    unsigned bits = 0;
+    unsigned used = 0;
     for (unsigned bit = 0; bit < kMostBits; ++bit) {
         const auto set = hn::TestBit(fold, hn::Set(d, static_cast<std::uint8_t>(1u << bit)));
         std::array<std::uint8_t, 8> stored{};
         hn::StoreMaskBits(d, set, stored.data());
         std::memcpy(&planes[bit], stored.data(), sizeof planes[bit]);
-        if (planes[bit])
-            bits = bit + 1;
+        used |= (planes[bit] != 0 ? 1u : 0u) << bit;
     }
-    return bits;
+    return static_cast<unsigned>(std::bit_width(used));
 }
 
 /// Vectors so long that a quarter of one holds a whole number of rows.
@@ -165,7 +164,7 @@ void pack(const std::uint8_t* numbers, std::size_t count, std::vector<std::byte>
         std::array<std::uint16_t, kMostBits> planes;
         const unsigned bits = planes_of<true>(from, planes);
         widths[row / 2] |= static_cast<std::byte>(bits << row % 2 * 4);
-        std::memcpy(at, planes.data(), bits * sizeof(std::uint16_t));
+        std::memcpy(at, planes.data(), sizeof planes); // the next row goes over what is unused
         at += bits * sizeof(std::uint16_t);
     }
     out.resize(static_cast<std::size_t>(at - out.data()));
@@ -236,14 +235,14 @@ void pack_words(const std::uint8_t* bytes, std::size_t word, std::size_t count,
         std::size_t highest = word;
         while (highest > 0 && is_zero(of[highest - 1]))
             --highest;
-        std::array<std::uint16_t, kMostBits> planes;
+        std::array<std::uint16_t, kMostBits> planes{};
         const unsigned bits = highest > 0 ? planes_of<false>(of[highest - 1], planes) : 0;
         // A byte with all its bits is stored as it is.
         const std::size_t whole = bits == kMostBits || highest == 0 ? highest : highest - 1;
         for (std::size_t byte = 0; byte < whole; ++byte, at += kRow)
             std::memcpy(at, of[byte], kRow);
         const std::size_t rest = whole < highest ? bits : 0;
-        std::memcpy(at, planes.data(), rest * sizeof(std::uint16_t));
+        std::memcpy(at, planes.data(), sizeof planes); // as above
         at += rest * sizeof(std::uint16_t);
         widths[row] = static_cast<std::byte>(whole * kMostBits + rest);
     }

@@ -53,28 +53,35 @@ void ChunkStore::read_records(const ChunkLayer& table, std::span<const std::uint
                               const std::stop_token& stop, const TakeRecord& f) const {
     thread_local std::vector<std::byte> bytes;
     const std::uint64_t together = is_small() ? kOfSmallStep : kRecordsTogether;
-    for (const RecordRun& run : runs_of(table, places))
-        for (std::size_t first = run.first, next = first; first <= run.last; first = next) {
-            stop_if_asked(stop);
-            const std::uint64_t begin = table.offsets[places[first]];
-            std::uint64_t end = begin;
-            for (; next <= run.last; ++next) {
-                const std::uint64_t with_next = table.offsets[places[next] + 1];
-                if (next > first && with_next - begin > together)
-                    break;
-                end = with_next;
-            }
-            if (const std::uint64_t room = std::max(together, end - begin);
-                bytes.capacity() < room) { // grows once
-                bytes.clear();
-                make_room(bytes, room);
-            }
-            bytes.resize(std::max<std::size_t>(bytes.size(), end - begin));
-            const auto read = std::span(bytes).first(end - begin);
-            source_.read(begin, read);
-            for (std::size_t i = first; i < next; ++i)
-                f(i, read.subspan(table.offsets[places[i]] - begin, table.bytes(places[i])));
+    const std::vector<RecordRun> runs = runs_of(table, places, together);
+    std::vector<RangeRead> reads;
+    for (std::size_t first = 0, next = 0; first < runs.size(); first = next) {
+        stop_if_asked(stop);
+        std::uint64_t size = 0; // runs are decoded while in the processor's cache
+        for (; next < runs.size(); ++next) {
+            const std::uint64_t with_next = size + runs[next].end - runs[next].begin;
+            if (next > first && (is_small() || with_next > together))
+                break;
+            size = with_next;
         }
+        if (const std::uint64_t room = std::max(together, size);
+            bytes.capacity() < room) { // grows once
+            bytes.clear();
+            make_room(bytes, room);
+        }
+        bytes.resize(std::max<std::size_t>(bytes.size(), size));
+        reads.clear();
+        for (std::size_t i = first, at = 0; i < next; ++i) {
+            reads.push_back(
+                {runs[i].begin, std::span(bytes).subspan(at, runs[i].end - runs[i].begin)});
+            at += reads.back().out.size();
+        }
+        source_.read_each(reads);
+        for (std::size_t run = first; run < next; ++run)
+            for (std::size_t i = runs[run].first; i <= runs[run].last; ++i)
+                f(i, reads[run - first].out.subspan(table.offsets[places[i]] - runs[run].begin,
+                                                    table.bytes(places[i])));
+    }
 }
 
 /// Reads all of a small step in one request, and keeps its tables and the levels of its bricks. The

@@ -183,6 +183,28 @@ TEST_F(ServeCommand, WritesASiteIntoAFolderOfItsOwn) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path() / "foreign"), {}), 1);
 }
 
+TEST_F(ServeCommand, PutsAStoryBesideTheIndexAndRefusesWhatThePageWould) {
+    folder.write("a b.isochron-story", R"({"format": "isochron keys", "version": 1, "keys": )"
+                                       R"([{"time": 0, "text": "a", "step": 1}]})");
+    const ChildResult wrote =
+        isochron({"serve", "a.isochron", "--story", "a b.isochron-story", "--write-site", "site"});
+    ASSERT_EQ(wrote.status, 0) << wrote.err;
+    EXPECT_EQ(folder.read("site/a b.isochron-story"), folder.read("a b.isochron-story"));
+    EXPECT_THAT(folder.read("site/site.json"), HasSubstr("\"story\": \"a b.isochron-story\""));
+    folder.write("session.isochron-story", R"({"format": "isochron session", "version": 1})");
+    folder.write("silent.isochron-story",
+                 R"({"format": "isochron keys", "version": 1, "keys": [{"time": 0}]})");
+    folder.write("site.json", "{}");
+    for (const auto& [name, said] : std::vector<std::pair<std::string, std::string>>{
+             {"session.isochron-story", "a session, which names folders of this machine"},
+             {"silent.isochron-story", "no story: expected a key with a \"text\""},
+             {"gone.isochron-story", "gone.isochron-story"},
+             {"site.json", "expected a file NAME.isochron-story"}})
+        expect_failure(isochron({"serve", "a.isochron", "--story", name, "--write-site", "no"}),
+                       name == "site.json" ? 2 : 1, said);
+    EXPECT_FALSE(fs::exists(folder.path() / "no"));
+}
+
 TEST_F(ServeCommand, RefusesWhatItCannotServe) {
     for (const auto& [arguments, said] :
          std::vector<std::pair<std::vector<std::string>, std::string>>{

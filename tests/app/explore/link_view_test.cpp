@@ -8,10 +8,12 @@
 #include "tests/support/test_seed.h"
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+#include <regex>
 
 namespace isochron::app {
 namespace {
@@ -48,6 +50,12 @@ TEST_F(LinkView, IsReadAsItWasWritten) {
     state.isosurfaces = {{1.25, {1, 0.2f, 0}, 1}, {-3, {0, 0, 1}, 0.5f}};
     state.picked = 1;
     state.instant = index::Instant(1);
+    state.clip = {true, {101, -19.5, 4}, {0, 0.6, -0.8}};
+    state.coloring = {.by = interaction::ColorBy::value, .map = "turbo", .range = {{-1, 2.5}}};
+    state.coloring.array = file_.info().array;
+    // The data lie on their side, and no camera whose up is their z sees them so.
+    state.room_from_physical.rotation =
+        glm::angleAxis(2.0, glm::normalize(glm::dvec3(0.3, 0.5, -1)));
     const std::string link = link_to("http://h/a.isochron", state, file_, kScreen);
     const ExplorerState read = reread(link);
     ASSERT_EQ(read.isosurfaces.size(), 2u);
@@ -57,7 +65,19 @@ TEST_F(LinkView, IsReadAsItWasWritten) {
     EXPECT_NEAR(read.isosurfaces[0].color.y, 0.2, 0.002);
     EXPECT_EQ(read.picked, 1u);
     EXPECT_EQ(read.instant.step, 1u);
-    EXPECT_EQ(link_to("http://h/a.isochron", read, file_, kScreen), link);
+    EXPECT_EQ(read.clip.point, state.clip.point);
+    EXPECT_NEAR(glm::distance(read.clip.normal, state.clip.normal), 0, 1e-9);
+    EXPECT_EQ(read.coloring.map, "turbo");
+    EXPECT_EQ(read.coloring.range, state.coloring.range);
+    EXPECT_GT(
+        std::abs(glm::dot(read.room_from_physical.rotation, state.room_from_physical.rotation)),
+        1 - 1e-9);
+    // What is up follows from the view, which the link says with seven digits.
+    const auto but_up = [](const std::string& text) {
+        return std::regex_replace(text, std::regex("&up=[^&]*"), "");
+    };
+    EXPECT_EQ(but_up(link_to("http://h/a.isochron", read, file_, kScreen)), but_up(link));
+    EXPECT_NE(but_up(link), link);
 }
 
 TEST_F(LinkView, ShowsPointsWhereThePagesCameraSeesThem) {
@@ -88,10 +108,11 @@ TEST_F(LinkView, ShowsPointsWhereThePagesCameraSeesThem) {
 }
 
 TEST_F(LinkView, IgnoresWhatIsNoSetting) {
-    for (const std::string words : {"isovalue=1e999&step=-1&array=7&view=1,2,3",
-                                    "isovalue=nan&step=99999999999&surfaces=,/,&picked=5",
-                                    "view=1,1,1,1,1,1&clip=7,2&colors=-1&opacity=abc",
-                                    "view=nan,1,1,1,1,1&isovalue=0x10", "%%%&&=&=;"})
+    for (const std::string words :
+         {"isovalue=1e999&step=-1&array=7&view=1,2,3",
+          "isovalue=nan&step=99999999999&surfaces=,/,&picked=5",
+          "view=1,1,1,1,1,1&clip=7,2&colors=-1&opacity=abc", "view=nan,1,1,1,1,1&isovalue=0x10",
+          "%%%&&=&=;", "plane=1,2,3,0,0,0&up=0,0,0&range=2,1&map=none"})
         EXPECT_EQ(
             reread("http://h/" + std::to_string(std::hash<std::string>()(words)) + "#" + words),
             ExplorerState())

@@ -165,6 +165,23 @@ TEST_F(SiteTest, SendsNothingElse) {
         EXPECT_EQ(get(one, kFile, known, method).status, 405u) << method;
 }
 
+TEST_F(SiteTest, HasAStoryBesideItsFilesAsItIs) {
+    folder_.write("tour.isochron-story", "{}");
+    SiteParts parts{.files = {folder_.path() / "run 42.isochron"},
+                    .token = "word",
+                    .story = folder_.path() / "tour.isochron-story"};
+    parts.written = [](const auto&) { return ServedFile{5, "\"x\""}; }; // the index, as it grows
+    const Site one{std::move(parts)};
+    const std::map<std::string, std::string, std::less<>> known{{"authorization", "Bearer word"}};
+    const SiteAnswer story = get(one, "/tour.isochron-story", known);
+    EXPECT_EQ(story.status, 200u);
+    EXPECT_EQ(story.length, 2u);
+    EXPECT_EQ(get(one, kFile, known).length, 5u);
+    EXPECT_EQ(get(one, "/tour.isochron-story").status, 401u);
+    EXPECT_THAT(body(get(one, "/site.json", known)),
+                HasSubstr("\"story\": \"tour.isochron-story\""));
+}
+
 TEST_F(SiteTest, RefusesFilesThatItCannotTellApart) {
     std::filesystem::create_directory(folder_.path() / "other");
     folder_.write("other/run 42.isochron", "x");

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <mutex>
@@ -39,6 +40,14 @@ class WatchedSource final : public ByteSource {
         announcements += bytes;
         ++requests;
     }
+    void expect_each(std::span<const ByteRange> ranges) const override {
+        {
+            const std::lock_guard lock(mutex_);
+            calls += ranges.empty() ? 0 : 1;
+            pieces += ranges.size();
+        }
+        ByteSource::expect_each(ranges);
+    }
     void fetch(std::uint64_t offset, std::uint64_t bytes, const std::stop_token&) const override {
         expect(offset, bytes);
     }
@@ -49,13 +58,29 @@ class WatchedSource final : public ByteSource {
 
     mutable std::uint64_t announcements = 0;         ///< bytes
     mutable std::uint32_t requests = 0;              ///< for these bytes
+    mutable std::uint64_t calls = 0, pieces = 0;     ///< pieces that were asked for in these calls
     mutable std::uint64_t ends = 0;                  ///< bytes from here on are not watched
     mutable std::uint64_t read = 0, unannounced = 0; ///< bytes
 
   protected:
     std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const override {
-        std::memcpy(out.data(), bytes_.data() + offset, out.size());
         const std::lock_guard lock(mutex_);
+        ++calls;
+        ++pieces;
+        return take(offset, out);
+    }
+    void read_together(std::span<const RangeRead> reads,
+                       std::span<std::size_t> got) const override {
+        const std::lock_guard lock(mutex_);
+        ++calls;
+        pieces += reads.size();
+        for (std::size_t i = 0; i < reads.size(); ++i)
+            got[i] = take(reads[i].offset, reads[i].out);
+    }
+
+  private:
+    std::size_t take(std::uint64_t offset, std::span<std::byte> out) const {
+        std::memcpy(out.data(), bytes_.data() + offset, out.size());
         for (std::uint64_t i = offset; i < std::min(offset + out.size(), ends); ++i) {
             ++read;
             unannounced += announced_[i] ? 0 : 1;
@@ -63,7 +88,6 @@ class WatchedSource final : public ByteSource {
         return out.size();
     }
 
-  private:
     std::string name_ = "watched.isochron", bytes_;
     mutable std::mutex mutex_; ///< guards all that is counted: other threads read ahead
     mutable std::vector<bool> announced_;
@@ -151,6 +175,28 @@ TEST(LayersOfAStep, AreReadInOneGoEachWhereMostOfThemIsNeeded) {
         {83, 70, 67}, 1, ValueType::u8,
         [](double x, double y, double z, double) { return x < 20 && y < 20 ? 10 + z : 0.0; });
     EXPECT_EQ(fetched(corner, 5.5), 0u);
+}
+
+TEST(LayersOfAStep, AreAskedForInFewCallsWhereTheirCandidatesLieApart) {
+    const test_support::TestFolder folder;
+    const auto path = folder.path() / "a.isochron";
+    const TestField field({400, 400, 20}, 1, ValueType::f32,
+                          [](double x, double y, double z, double) {
+                              const double dx = std::fmod(x, 57) - 20, dy = std::fmod(y, 57) - 20;
+                              return dx * dx + dy * dy + (z - 10) * (z - 10) < 8 ? 200.0 : 10.0;
+                          });
+    MemorySeries series(field.view());
+    build_index(series, path, {.tiers = TierSet().with(Tier::bricks), .codec = Codec::none});
+    auto made = std::make_unique<WatchedSource>(path);
+    const WatchedSource& source = *made;
+    const auto file = IndexFile::open(std::move(made));
+    source.calls = source.pieces = 0;
+    CellSet set;
+    set.query = {Instant(0), 100};
+    EXPECT_TRUE(LayerSearch(file).search(step_in_chunks(*file, Instant(0)), set, true, true, {}));
+    EXPECT_EQ(set.ids, BruteForce(field.view(), 0).active(100));
+    EXPECT_GT(source.pieces, 100u);
+    EXPECT_LT(4 * source.calls, source.pieces) << source.calls << " calls";
 }
 
 TEST(PreparedCandidates, AreReadOnceByWhoeverComesFirst) {

@@ -3,6 +3,7 @@
 #include "index/extraction/extractor.h"
 #include "index/file/index_file.h"
 #include "index/indexing/index_build.h"
+#include "index/system/input_file.h"
 #include "index/system/parallel.h"
 #include "tests/support/gate.h"
 #include "tests/support/memory_series.h"
@@ -12,9 +13,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <random>
+#include <thread>
 
 namespace isochron::index {
 namespace {
@@ -78,6 +84,115 @@ TEST_F(ByteSourceTest, FetchingReadsNothingForTheCallerAndLeavesErrorsToTheRead)
     std::filesystem::resize_file(path_, 100);
     EXPECT_NO_THROW(source->fetch(0, all.size(), {}));
     EXPECT_THROW(source->read(0, all), Error);
+}
+
+/// Places of a file that lie anywhere, and room for their bytes.
+struct SomeReads {
+    SomeReads(std::mt19937& random, std::uint64_t size, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint64_t offset = random() % size;
+            bytes.emplace_back(random() % (std::min<std::uint64_t>(size - offset, 9000) + 1));
+            ranges.push_back({offset, bytes.back().size()});
+            reads.push_back({offset, bytes.back()});
+        }
+    }
+    bool are_of(std::string_view file) const {
+        for (std::size_t i = 0; i < reads.size(); ++i)
+            if (file.substr(reads[i].offset, bytes[i].size()) !=
+                std::string_view(reinterpret_cast<const char*>(bytes[i].data()), bytes[i].size()))
+                return false;
+        return true;
+    }
+    std::vector<std::vector<std::byte>> bytes;
+    std::vector<ByteRange> ranges;
+    std::vector<RangeRead> reads;
+};
+
+TEST_F(ByteSourceTest, RangesReadTogetherAreWhatTheyAreAloneForAnyNumberAndInSeveralThreads) {
+    std::mt19937 random(test_seed());
+    const auto source = open_bytes(path_);
+    const std::string file = read_file(path_);
+    for (const std::size_t count : {0u, 1u, 2u, 63u, 64u, 65u, 300u}) {
+        SomeReads some(random, file.size(), count);
+        const std::uint64_t before = source->bytes_read();
+        source->expect_each(some.ranges);
+        source->read_each(some.reads);
+        EXPECT_TRUE(some.are_of(file)) << count;
+        std::uint64_t bytes = 0;
+        for (const ByteRange& range : some.ranges)
+            bytes += range.bytes;
+        EXPECT_EQ(source->bytes_read() - before, bytes);
+    }
+    std::vector<SomeReads> all;
+    for (int i = 0; i < 4; ++i)
+        all.emplace_back(random, file.size(), 150);
+    {
+        std::vector<std::jthread> threads;
+        for (SomeReads& some : all)
+            threads.emplace_back([&] {
+                source->expect_each(some.ranges);
+                source->read_each(some.reads);
+            });
+    }
+    for (const SomeReads& some : all)
+        EXPECT_TRUE(some.are_of(file));
+}
+
+TEST_F(ByteSourceTest, ARangeBehindTheEndOfAFileThatBecameShorterIsNamed) {
+    std::mt19937 random(test_seed());
+    const auto source = open_bytes(path_);
+    SomeReads some(random, source->size(), 100);
+    std::filesystem::resize_file(path_, 100);
+    some.reads.push_back({50, some.bytes.emplace_back(51)});
+    try {
+        source->read_each(some.reads);
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("a.isochron: truncated: nothing at byte "));
+    }
+}
+
+TEST_F(ByteSourceTest, AForkedProcessReadsRangesWithoutTheRequestsOfTheOther) {
+    std::mt19937 random(test_seed());
+    const auto source = open_bytes(path_);
+    const std::string file = read_file(path_);
+    const auto reads = [&] {
+        SomeReads some(random, file.size(), 100);
+        source->expect_each(some.ranges);
+        source->read_each(some.reads);
+        return some.are_of(file);
+    };
+    EXPECT_TRUE(reads());
+    const pid_t child = ::fork();
+    if (child == 0)
+        ::_exit(reads() ? 0 : 1);
+    EXPECT_TRUE(reads());
+    int status = -1;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+}
+
+TEST_F(ByteSourceTest, ARingSaysHowManyBytesOfEachRangeCame) {
+    const auto ring = RequestRing::make();
+    if (!ring)
+        GTEST_SKIP() << "the system gives none";
+    const std::string bytes = read_file(path_);
+    const InputFile file(path_);
+    std::vector<std::byte> room(70 * 10);
+    std::vector<RangeRead> reads;
+    for (std::size_t i = 0; i < 70; ++i) // the last ones reach over the end, and lie behind it
+        reads.push_back({bytes.size() - 65 + i, std::span(room).subspan(10 * i, 10)});
+    std::vector<std::size_t> got(70, 99);
+    EXPECT_TRUE(ring->announce(file.descriptor(), {{{0, 4096}, {8192, 100}}}));
+    for (int time = 0; time < 3; ++time) {
+        ring->read(file.descriptor(), reads, got);
+        for (std::size_t i = 0; i < 70; ++i) {
+            EXPECT_EQ(got[i], i >= 65 ? 0 : std::min<std::size_t>(10, 65 - i));
+            EXPECT_EQ(std::memcmp(reads[i].out.data(), bytes.data() + reads[i].offset, got[i]), 0);
+        }
+    }
+    ring->read(-1, reads, got);
+    EXPECT_EQ(got, std::vector<std::size_t>(70, 0)) << "there is no such file";
 }
 
 TEST_F(ByteSourceTest, ReadsThatComeInPiecesGiveTheSame) {

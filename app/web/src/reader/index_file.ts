@@ -46,6 +46,8 @@ export interface Info {
   direction: [number, number, number][];
   positions: [number[], number[], number[]];
   times: number[];
+  /** Steps behind which nothing is blended while time plays, ascending. */
+  gaps: number[];
   timeUnit: string;
   lengthUnit: string;
   valueUnit: string;
@@ -116,6 +118,13 @@ function numbers(value: unknown, count: number, what: string): number[] {
   return value as number[];
 }
 
+/** The steps behind which the next one is more than three times the median away, or files are missing (index/volume/step_gaps.cpp). */
+export function gapsOf(times: readonly number[], missingAfter: readonly number[]): number[] {
+  const apart = times.slice(1).map((time, i) => time - times[i]!);
+  const median = apart.toSorted((a, b) => a - b)[Math.floor(apart.length / 2)]!;
+  return apart.flatMap((gap, step) => (gap > 3 * median || missingAfter.includes(step) ? [step] : []));
+}
+
 function infoOf(json: Record<string, any>): Info {
   const type = TYPES.find((each) => each === json.type);
   if (!type) throw new Error("metadata: type");
@@ -137,6 +146,7 @@ function infoOf(json: Record<string, any>): Info {
     direction: direction.map((column) => three(column, "direction")),
     positions: [0, 1, 2].map((axis) => numbers(positions[axis], -1, "positions")) as Info["positions"],
     times: numbers(json.times, -1, "times"),
+    gaps: gapsOf(numbers(json.times, -1, "times"), numbers(json.missing_after ?? [], -1, "missing_after")),
     timeUnit: text(json.time_unit),
     lengthUnit: text(json.length_unit),
     valueUnit: text(json.value_unit),

@@ -214,33 +214,46 @@ export class Surfaces {
     this.file.module.words(pointers, AROUND).set(places);
   }
 
+  /** Gives bytes at each of some steps to the module, for one call; 0 stands for a step that is not there. */
+  private withBytes<T>(bytes: readonly Uint8Array[], call: (first: number, second: number) => T): T {
+    const { module } = this.file;
+    const [first, second] = bytes.map((each) => module.put(each)) as [number, number?];
+    try {
+      return call(first, second ?? 0);
+    } finally {
+      module.give(first);
+      if (second) module.give(second);
+    }
+  }
+
   /**
-   * The surface at a step, piece by piece. One search at a time.
+   * The surface at a step or between two, piece by piece. One search at a time.
+   * @param fraction of the way to the next step, in 65536ths
    * @param colors another array at the same level, whose values at the points are wanted
    */
-  async find(step: number, isovalue: number, take: (piece: Piece) => void, stop?: AbortSignal, colors?: Surfaces): Promise<void> {
+  async find(step: number, fraction: number, isovalue: number, take: (piece: Piece) => void, stop?: AbortSignal, colors?: Surfaces): Promise<void> {
     const { module } = this.file;
     const { calls } = module;
-    await this.readTables(step, stop);
-    const levels = this.levelsOfStep.get(step)!;
-    const levelsAt = module.put(levels);
-    const sound = calls.set_levels(this.volume, levelsAt, levels.length);
-    module.give(levelsAt);
-    if (!sound) throw this.damaged(step, "the levels of its bricks");
-    if (!calls.set_isovalue(this.volume, isovalue)) return;
+    const steps = fraction > 0 ? [step, step + 1] : [step];
+    await Promise.all(steps.map((each) => this.readTables(each, stop)));
+    steps.forEach((each, which) => {
+      const levels = this.levelsOfStep.get(each)!;
+      if (!this.withBytes([levels], (at) => calls.set_levels(this.volume, which, at, levels.length))) throw this.damaged(each, "the levels of its bricks");
+    });
+    colors?.file.module.calls.set_colors(colors.volume, fraction);
+    if (!calls.set_query(this.volume, fraction, isovalue)) return;
 
     // Candidates of all layers, then the chunks that their bricks need.
     const out = module.take(4 * this.counts[0] * this.counts[1]);
     const candidates: [number, number][] = [];
     for (let layer = 0; layer < this.counts[2]; ++layer) {
-      const table = module.put(this.tables.get(step)![layer]!.bytes);
-      const count = calls.candidates(this.volume, table, out);
-      module.give(table);
+      const tables = steps.map((each) => this.tables.get(each)![layer]!.bytes);
+      const count = this.withBytes(tables, (table, next) => calls.candidates(this.volume, table, next, out));
       if (count < 0) throw this.damaged(step, `the checksum of the table of layer ${layer} does not match`);
       for (const place of module.words(out, count)) candidates.push([layer, place]);
     }
     module.give(out);
-    await this.readRecords(step, candidates, stop);
+    await Promise.all(steps.map((each) => this.readRecords(each, candidates, stop)));
     const around = module.take(4);
     const asked: { layer: number; place: number; bricks: number; needs: [bit: number, layer: number, place: number][] }[] = [];
     const needed = new Map<number, [number, number]>();
@@ -248,10 +261,9 @@ export class Surfaces {
       let bricks = ALL_BRICKS;
       let reach = ALL_AROUND;
       if (this.array.info.hasBricks) {
-        const record = module.put(this.records.get(this.key(step, layer, place))!.subarray(0, 68));
-        bricks = calls.bricks(this.volume, record, around) >>> 0;
+        const records = steps.map((each) => this.records.get(this.key(each, layer, place))!.subarray(0, 68));
+        bricks = this.withBytes(records, (record, next) => calls.bricks(this.volume, record, next, around)) >>> 0;
         reach = module.words(around, 1)[0]! | (1 << OWN);
-        module.give(record);
       }
       if (bricks === 0) continue;
       const at = calls.at(this.volume, place);
@@ -267,9 +279,10 @@ export class Surfaces {
       asked.push({ layer, place, bricks, needs });
     }
     module.give(around);
-    await Promise.all([this.readChunks(step, needed.values(), stop), colors?.readChunks(step, needed.values(), stop)]);
+    await Promise.all(steps.flatMap((each) => [this.readChunks(each, needed.values(), stop), colors?.readChunks(each, needed.values(), stop)]));
 
-    const pointers = module.take(4 * AROUND);
+    const pointers = steps.map(() => module.take(4 * AROUND));
+    const [now, next] = [pointers[0]!, pointers[1] ?? 0];
     const found = module.take(24);
     let began = performance.now();
     try {
@@ -279,15 +292,15 @@ export class Surfaces {
           began = performance.now();
         }
         stop?.throwIfAborted();
-        this.point(step, needs, pointers);
-        const count = calls.find(this.volume, layer, place, bricks, pointers);
+        steps.forEach((each, i) => this.point(each, needs, pointers[i]!));
+        const count = calls.find(this.volume, layer, place, bricks, now, next);
         if (count === 0) continue;
         calls.found(this.volume, found);
         const [cells, points, normals, triangles, pointCount, triangleCount] = module.words(found, 6) as unknown as [number, number, number, number, number, number];
         let values: Float32Array | null = null;
         if (colors) {
-          colors.point(step, needs, pointers);
-          const at = calls.values(colors.volume, this.volume, layer, place, pointers);
+          steps.forEach((each, i) => colors.point(each, needs, pointers[i]!));
+          const at = calls.values(colors.volume, this.volume, layer, place, now, next);
           values = new Float32Array(calls.memory.buffer, at, pointCount).slice();
         }
         const memory = calls.memory.buffer;
@@ -300,7 +313,7 @@ export class Surfaces {
         });
       }
     } finally {
-      module.give(pointers);
+      for (const each of pointers) module.give(each);
       module.give(found);
       this.forget();
       colors?.forget();

@@ -4,11 +4,16 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Surface } from "../link";
 import type { Found } from "../messages";
 import type { Info } from "../reader/index_file";
+import type { Key } from "../story/story";
+import { STORY_MOVE, Way, type Sight } from "../story/way";
 import { Headset, type HeadsetWishes } from "./headset";
 import { Ticks } from "./ticks";
 
-/** Camera: place, target and zoom in one list of numbers, for links. */
+/** Camera: place and target in one list of numbers, for links. */
 export type View = [number, number, number, number, number, number];
+/** What a clip plane cuts away: beyond a share of an axis of the array, or of a plane among the data. */
+export type Cut = { axis: number; share: number } | { point: readonly number[]; normal: readonly number[] };
+const UP = new THREE.Vector3(0, 0, 1);
 
 export class Scene {
   private readonly renderer: THREE.WebGLRenderer;
@@ -16,7 +21,10 @@ export class Scene {
   /** The data: what hands grab in a headset. */
   private readonly world = new THREE.Group();
   private readonly camera = new THREE.PerspectiveCamera(40, 1, 0.01, 100);
-  private readonly controls: OrbitControls;
+  private controls: OrbitControls;
+  private bounds = new THREE.Sphere();
+  private way: { way: Way; began: number | null } | null = null;
+  private inside: Headset | null = null;
   private readonly surfaces: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>[] = [];
   private box: THREE.LineSegments | null = null;
   private wanted = false;
@@ -27,6 +35,10 @@ export class Scene {
   private readonly cut = new THREE.Plane();
   /** Called after the camera was moved. */
   moved: () => void = () => {};
+  /** Called when a way that `go` began is at its end, or somebody else has taken the camera. */
+  arrived: () => void = () => {};
+  /** Called after the picture was drawn. */
+  drawn: () => void = () => {};
 
   private readonly ticks: Ticks;
 
@@ -35,17 +47,24 @@ export class Scene {
     this.ticks = new Ticks(numbers);
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(window.devicePixelRatio);
-    this.camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => {
-      this.draw();
-      this.moved();
-    });
+    this.camera.up.copy(UP);
+    this.controls = this.newControls();
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
     key.position.set(-0.6, 0.8, 1);
     this.camera.add(key);
     this.scene.add(this.world, this.camera, new THREE.HemisphereLight(0xffffff, 0x303440, 1.1));
     new ResizeObserver(() => this.resize()).observe(canvas);
+  }
+
+  /** They keep what was up when they were made. */
+  private newControls(): OrbitControls {
+    const controls = new OrbitControls(this.camera, this.renderer.domElement);
+    controls.addEventListener("change", () => {
+      this.draw();
+      this.moved();
+    });
+    controls.addEventListener("start", () => this.way && this.arrive());
+    return controls;
   }
 
   /** Shows the box of an array, and looks at it from a corner. */
@@ -65,24 +84,88 @@ export class Scene {
       new THREE.LineBasicMaterial({ color: 0x808898, transparent: true, opacity: 0.6 }),
     );
     this.world.add(this.box);
-    const bounds = new THREE.Box3().setFromPoints(corners).getBoundingSphere(new THREE.Sphere());
-    this.controls.target.copy(bounds.center);
+    const bounds = (this.bounds = new THREE.Box3().setFromPoints(corners).getBoundingSphere(new THREE.Sphere()));
     this.camera.near = bounds.radius / 100;
     this.camera.far = bounds.radius * 40;
-    this.camera.position.copy(bounds.center).add(new THREE.Vector3(-0.6, -0.85, 0.5).normalize().multiplyScalar((bounds.radius * 3.1) / Math.min(1, this.camera.aspect)));
     this.camera.updateProjectionMatrix();
+    const eye = bounds.center.clone().add(new THREE.Vector3(-0.6, -0.85, 0.5).normalize().multiplyScalar((bounds.radius * 3.1) / Math.min(1, this.camera.aspect)));
+    this.sight = { eye, target: bounds.center, up: UP };
+  }
+
+  /** Center of the data, less their origin, and the radius around it. */
+  get data(): THREE.Sphere {
+    return this.bounds;
+  }
+  get aspect(): number {
+    return this.camera.aspect;
+  }
+  get sight(): Sight {
+    return { eye: this.camera.position.clone(), target: this.controls.target.clone(), up: this.camera.up.clone() };
+  }
+  set sight({ eye, target, up }: Sight) {
+    this.way = null;
+    if (!up.equals(this.camera.up)) {
+      this.camera.up.copy(up);
+      this.controls.dispose();
+      this.controls = this.newControls();
+    }
+    this.camera.position.copy(eye);
+    this.controls.target.copy(target);
     this.controls.update();
     this.draw();
+  }
+  /** Goes to a view within a moment; who takes the camera meanwhile has it. @param leaps it is there at once */
+  go(to: Sight, leaps: boolean): void {
+    if (leaps) {
+      this.sight = to;
+      this.moved();
+      this.arrived();
+      return;
+    }
+    this.way = { way: new Way(this.sight, to, this.bounds.center), began: null };
+    requestAnimationFrame(this.goOn);
+  }
+  private readonly goOn = (now: number): void => {
+    if (!this.way) return;
+    this.way.began ??= now;
+    const share = (now - this.way.began) / 1000 / STORY_MOVE;
+    if (share >= 1) {
+      this.arrive();
+    } else {
+      const { eye, target, up } = this.way.way.at(share);
+      this.camera.position.copy(eye);
+      this.camera.quaternion.setFromRotationMatrix(new THREE.Matrix4().lookAt(eye, target, up));
+      this.controls.target.copy(target);
+      this.draw();
+      requestAnimationFrame(this.goOn);
+    }
+    this.moved();
+  };
+  /** The way ends where the camera is. */
+  private arrive(): void {
+    const { way, began } = this.way!;
+    const share = began === null ? 0 : (performance.now() - began) / 1000 / STORY_MOVE;
+    this.sight = share >= 1 ? way.at(1) : { ...this.sight, up: way.at(1).up };
+    this.arrived();
+  }
+  /** In a headset the data stand as they do in a key's room. @return false: nobody is in a headset */
+  stand(key: Key, origin: readonly number[]): boolean {
+    this.inside?.stand(key, origin);
+    return this.inside !== null;
+  }
+  /** Where a place among the data, less their origin, is in the picture [pixels]; null: behind the camera. */
+  placeInPicture(at: readonly number[]): { x: number; y: number } | null {
+    const clip = new THREE.Vector3(...(at as [number, number, number])).project(this.camera);
+    const { clientWidth, clientHeight } = this.renderer.domElement;
+    return clip.z < 1 ? { x: ((clip.x + 1) / 2) * clientWidth, y: ((1 - clip.y) / 2) * clientHeight } : null;
   }
 
   get view(): View {
     return [...this.camera.position.toArray(), ...this.controls.target.toArray()] as View;
   }
-  set view(view: View) {
-    this.camera.position.set(view[0], view[1], view[2]);
-    this.controls.target.set(view[3], view[4], view[5]);
-    this.controls.update();
-    this.draw();
+  /** What is up in the picture; null: the data's z. */
+  get up(): number[] | null {
+    return this.camera.up.equals(UP) ? null : this.camera.up.toArray();
   }
 
   /** @param colors of each surface, linear, three for each point; null: it has its own color */
@@ -128,10 +211,13 @@ export class Scene {
     });
     this.draw();
   }
-  /** Cuts away what lies beyond a plane: along an axis of the array at a share of its length; null: nothing. */
-  clip(info: Info, at: { axis: number; share: number } | null): void {
+  /** Cuts away what lies beyond a plane; null: nothing. */
+  clip(info: Info, at: Cut | null): void {
     this.renderer.localClippingEnabled = at !== null;
-    if (at) {
+    if (at && "point" in at) {
+      const point = new THREE.Vector3(...(at.point as [number, number, number])).sub(new THREE.Vector3(...info.origin));
+      this.cutOfData.setFromNormalAndCoplanarPoint(new THREE.Vector3(...(at.normal as [number, number, number])).negate(), point);
+    } else if (at) {
       const size = info.positions[at.axis]!.at(-1) ?? (info.vertices[at.axis]! - 1) * info.spacing[at.axis]!;
       const along = new THREE.Vector3(...info.direction[at.axis]!);
       this.cutOfData.setFromNormalAndCoplanarPoint(along.clone().negate(), along.multiplyScalar(size * at.share));
@@ -149,6 +235,7 @@ export class Scene {
     if (!(await Headset.there())) return null;
     const headset = new Headset(this.renderer, this.scene, this.world, () => new THREE.Box3().setFromObject(this.box!, true), wishes);
     headset.changed = (inside) => {
+      this.inside = inside ? headset : null;
       // Two eyes do not wait for what the page draws, and the page draws nothing meanwhile.
       if (inside)
         this.renderer.setAnimationLoop((now: number) => {
@@ -188,6 +275,7 @@ export class Scene {
     this.renderer.render(this.scene, this.camera);
     const { clientWidth, clientHeight } = this.renderer.domElement;
     if (!this.renderer.xr.isPresenting) this.ticks.draw(this.camera, clientWidth, clientHeight);
+    this.drawn();
   }
 
   private resize(): void {

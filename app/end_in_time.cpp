@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include <poll.h>
 #include <semaphore.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -50,6 +51,12 @@ void raise_all_threads() noexcept {
                     usual);
 }
 
+/// Whether a line can be written at once: a full pipe whose reader hangs would keep the process.
+bool takes_a_line(int file) noexcept {
+    pollfd one{file, POLLOUT, 0};
+    return ::poll(&one, 1, 0) == 1 && (one.revents & POLLOUT) != 0;
+}
+
 [[noreturn]] void end(Watch& watch) {
     const std::chrono::seconds most = watch.saves ? EndInTime::kToSave : EndInTime::kToCleanUp;
     ::alarm(static_cast<unsigned>(most.count())); // ends it where even that hangs
@@ -58,7 +65,7 @@ void raise_all_threads() noexcept {
     index::remove_own_remains();
     if (!EndInTime::is_first_to_tell()) {
         std::this_thread::sleep_for(EndInTime::kByItself); // another thread says it now
-    } else {
+    } else if (takes_a_line(STDERR_FILENO)) {
         if (::isatty(STDERR_FILENO) != 0)
             print_safely(stderr, "\n"); // behind a bar of progress
         print_safely(stderr, "{}: canceled\n", watch.program.load());

@@ -134,6 +134,7 @@ void each_field(Visit&& visit, Records&... r) {
           r.instant.fraction...);
     visit(Field{.key = "array", .most = kLongestArrayName, .may_lack = true}, r.array...);
     visit(Field{.key = "unit", .most = kLongestArrayName, .may_lack = true}, r.unit...);
+    visit(Field{.key = "shown", .may_lack = true}, r.shown...);
 }
 
 template <class Visit, Of<HapticPulse>... Records>
@@ -168,6 +169,7 @@ template <class Visit, Of<Plane>... Records>
 void each_field(Visit&& visit, Records&... r) {
     visit(Field{"point"}, r.point...);
     visit(Field{"normal"}, r.normal...);
+    visit(Field{.key = "shown", .may_lack = true}, r.shown...);
 }
 
 template <class Visit, Of<Slices>... Records>
@@ -217,7 +219,17 @@ void each_field(Visit&& visit, Records&... r) {
 
 template <class Visit, Of<Ruler>... Records>
 void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"name"}, r.name...);
     visit(Field{.key = "places", .most = kMostRulerPlaces}, r.places...);
+    visit(Field{"angle"}, r.angle...);
+    visit(Field{"shown"}, r.shown...);
+}
+
+template <class Visit, Of<Rulers>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{.key = "list", .most = kMostRulers}, r.list...);
+    visit(Field{.key = "picked", .low = 0, .high = kMostRulers - 1}, r.picked...);
+    visit(Field{"angle"}, r.angle...);
 }
 
 template <class Visit, Of<CurveDrawer>... Records>
@@ -249,7 +261,7 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"between"}, r.between...);
     visit(Field{"mark"}, r.mark...);
     visit(Field{"clip"}, r.clip...);
-    visit(Field{"ruler"}, r.ruler...);
+    visit(Field{.key = "rulers", .old_key = "ruler"}, r.rulers...);
     visit(Field{"slices"}, r.slices...);
     visit(Field{"clip_box"}, r.clip_box...);
     visit(Field{"pieces"}, r.pieces...);

@@ -258,6 +258,7 @@ struct MarkedPoint {
     double value = 0;         ///< value of the data there
     /// Array whose value it is, and its unit; empty: that of the surfaces.
     std::string array = {}, unit = {};
+    bool shown = true; ///< its cross and its words are drawn
     bool operator==(const MarkedPoint&) const = default;
 };
 /// The one place that is marked, or none.
@@ -310,6 +311,7 @@ inline constexpr std::size_t kMostSlices = 3;
 struct Plane {
     glm::dvec3 point{0.0};            ///< on it
     glm::dvec3 normal{0.0, 0.0, 1.0}; ///< unit
+    bool shown = true;                ///< a slice that is not keeps its place
     bool operator==(const Plane&) const = default;
 };
 /// The slices that are shown together: planes through one array.
@@ -322,7 +324,9 @@ struct Slices {
     bool operator==(const Slices&) const = default;
 
     bool shown() const { return !planes.empty(); }
-    bool hides_surfaces() const { return alone && shown(); }
+    /// Whether one of them is seen.
+    bool seen() const { return std::ranges::any_of(planes, &Plane::shown); }
+    bool hides_surfaces() const { return alone && seen(); }
 };
 
 inline constexpr std::size_t kMostPlacedPieces = 64;
@@ -366,18 +370,38 @@ struct Model {
     bool operator==(const Model&) const = default;
 };
 
-inline constexpr std::size_t kMostRulerPlaces = 2;
-/// Places between which a distance is measured, in physical space.
+inline constexpr std::size_t kMostRulerPlaces = 3, kMostRulers = 32;
+/// Places between which a distance is measured, or an angle at the second one, in physical space.
 struct Ruler {
-    std::vector<glm::dvec3> places; ///< at most kMostRulerPlaces
+    std::string name = {};
+    std::vector<glm::dvec3> places = {}; ///< fewer than `wanted` until the user has chosen all
+    bool angle = false;                  ///< measures an angle, not a distance
+    bool shown = true;
     bool operator==(const Ruler&) const = default;
+
+    std::size_t wanted() const { return angle ? 3 : 2; }
+    bool complete() const { return places.size() >= wanted(); }
 };
+/// All rulers.
+struct Rulers {
+    std::vector<Ruler> list = {}; ///< at most kMostRulers
+    std::uint32_t picked = 0; ///< the one whose profile is plotted and that Delete removes, from 0
+    bool angle = false;       ///< the next one measures an angle
+    bool operator==(const Rulers&) const = default;
+
+    /// Null: there is none.
+    const Ruler* chosen() const { return picked < list.size() ? &list[picked] : nullptr; }
+};
+
+/// What `CurveDrawer::measure` has for the values at the mark, and for those along the picked ruler.
+inline constexpr std::string_view kMarkCurve = "mark", kProfileCurve = "profile";
 
 /// The drawer of curves: a number of the shown surfaces over all steps.
 struct CurveDrawer {
     bool shown = false;
-    std::string measure = "area"; ///< a measure's name (index/measure/measures.h), or `mark`
-    bool logarithmic = false;     ///< axis of the numbers
+    std::string measure =
+        "area";               ///< a measure's name (index/measure/measures.h), `mark`, `profile`
+    bool logarithmic = false; ///< axis of the numbers
     bool operator==(const CurveDrawer&) const = default;
 };
 
@@ -415,7 +439,7 @@ struct KeyFrame {
     std::optional<BetweenSteps> between = {};
     std::optional<Mark> mark = {};
     std::optional<ClipPlane> clip = {};
-    std::optional<Ruler> ruler = {};
+    std::optional<Rulers> rulers = {};
     std::optional<Slices> slices = {};
     std::optional<ClipBox> clip_box = {};
     std::optional<ShownPieces> pieces = {};

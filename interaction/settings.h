@@ -68,7 +68,7 @@ struct SettingsOf {
     Holds<Mark> mark{};
     Holds<Tools> tools{};
     Holds<ClipPlane> clip{};
-    Holds<Ruler> ruler{};
+    Holds<Rulers> rulers{};
     Holds<WrittenPictures> pictures{};
     Holds<ExportWork> exporting{};
     Holds<bool> leaving{}; ///< the program asks the user whether to quit
@@ -118,7 +118,7 @@ constexpr void each_setting(Visit&& visit, Records&... r) {
     visit(Field{"mark"}, r.mark...);
     visit(Field{"tools"}, r.tools...);
     visit(Field{.key = "clip", .dragged = true}, r.clip...);
-    visit(Field{"ruler"}, r.ruler...);
+    visit(Field{.key = "rulers", .old_key = "ruler"}, r.rulers...);
     visit(Field{"orthographic"}, r.orthographic...);
     visit(Field{.key = "pictures", .dragged = true}, r.pictures...);
     visit(Field{.key = "exporting", .undone = false}, r.exporting...);

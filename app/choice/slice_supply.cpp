@@ -20,9 +20,10 @@ std::vector<index::SliceQuery> slices_asked(const ExplorerState& state,
                                             const index::IndexFile& file) {
     std::vector<index::SliceQuery> queries;
     for (const interaction::Plane& plane : state.slices.planes)
-        queries.push_back({state.shown_instant().within(file.info().steps()),
-                           static_cast<std::uint32_t>(slice_array(state, file)), plane.point,
-                           plane.normal});
+        if (plane.shown)
+            queries.push_back({state.shown_instant().within(file.info().steps()),
+                               static_cast<std::uint32_t>(slice_array(state, file)), plane.point,
+                               plane.normal});
     return queries;
 }
 

@@ -47,14 +47,18 @@ class MarkRows {
         instant_.fraction = commands.fraction.value_or(instant_.fraction);
         for (const interaction::ToolRow& tool : interaction::tool_table())
             for (const interaction::MarkedRow& row :
-                 tool.rows ? tool.rows(commands) : std::vector<interaction::MarkedRow>())
-                push(tool.makes, row);
+                 tool.rows ? tool.rows(commands, known_) : std::vector<interaction::MarkedRow>())
+                push(tool.makes, row, row.name);
         if (commands.bookmarks)
             add(*commands.bookmarks);
         if (commands.marks)
             add(*commands.marks);
         for (const std::string& stamp : commands.stamps)
             push("stamp", instant_, stamp);
+        const auto keep = [](const interaction::Field&, const auto& given, auto& kept) {
+            kept = given.value_or(kept);
+        };
+        interaction::each_setting(keep, commands, known_);
     }
     Table table() && {
         return {{"what", "seconds", "step", "fraction", "name", "x", "y", "z", "value"},
@@ -64,17 +68,20 @@ class MarkRows {
   private:
     void add(const std::vector<interaction::Bookmark>& all) {
         for (const interaction::Bookmark& each : all)
-            if (std::ranges::find(known_, each) == known_.end())
+            if (std::ranges::find(known_.bookmarks, each) == known_.bookmarks.end())
                 push("bookmark", each.instant, each.name);
-        known_ = all;
     }
     void add(const std::vector<interaction::NamedMark>& all) {
-        for (const interaction::NamedMark& each : all)
-            if (std::ranges::find(marks_, each) == marks_.end()) {
-                const interaction::MarkedPoint& point = each.point;
+        for (const interaction::NamedMark& each : all) {
+            const interaction::MarkedPoint& point = each.point;
+            const bool known =
+                std::ranges::any_of(known_.marks, [&](const interaction::NamedMark& other) {
+                    return other.name == each.name && other.point.position == point.position &&
+                           other.point.instant == point.instant;
+                });
+            if (!known)
                 push("mark", {point.position, point.value, point.instant}, each.name);
-            }
-        marks_ = all;
+        }
     }
     Json& push(std::string_view what, index::Instant at, const std::string& name) {
         Json row{
@@ -86,8 +93,7 @@ class MarkRows {
         rows_.push_back(std::move(row));
         return rows_.back();
     }
-    void push(std::string_view what, const interaction::MarkedRow& made,
-              const std::string& name = "") {
+    void push(std::string_view what, const interaction::MarkedRow& made, const std::string& name) {
         Json& row = push(what, made.at.value_or(instant_), name);
         row["x"] = made.position.x;
         row["y"] = made.position.y;
@@ -98,8 +104,7 @@ class MarkRows {
 
     std::optional<double> seconds_;
     index::Instant instant_;
-    std::vector<interaction::Bookmark> known_;
-    std::vector<interaction::NamedMark> marks_;
+    interaction::Settings known_;
     Json rows_ = Json::array();
 };
 
@@ -206,7 +211,8 @@ void add_table(Command& program) {
         "bookmark or stamp), seconds since the session began, step, fraction (how far towards the "
         "next step: 32768 is halfway), name, x y z (in the unit of the data), and value (at a "
         "mark; "
-        "in the second row of a ruler its length). A row of a timing report has the report's keys "
+        "in the last row of a ruler its length, or its angle in degrees). A row of a timing report "
+        "has the report's keys "
         "as "
         "columns, such as `asked.step`.");
     command.on_run([arguments] { run_table(*arguments); });

@@ -82,8 +82,8 @@ SafeText describe_nodes(const stereo::Installation& installation) {
 std::vector<ConfigProblem> problems_of(const Config& config) {
     const CheckedRoom room(config);
     std::vector<ConfigProblem> found;
-    for (const auto& checks : {checks_of_screens(), checks_of_walls(), checks_of_viewers(),
-                               checks_of_devices(), checks_of_values()})
+    for (const auto& checks : {checks_of_screens(), checks_of_walls(), checks_of_displays(),
+                               checks_of_viewers(), checks_of_devices(), checks_of_values()})
         for (ConfigProblem& problem : findings_of(checks, room))
             found.push_back(std::move(problem));
     return found;

@@ -147,14 +147,19 @@ void eyes_on_hands(const CheckedRoom& room, const Tell& tell) {
                  fmt::format("the eyes of {} follow {}, a hand", viewer.name, viewer.head));
 }
 
-/// `source = "/isochron/wand"` where `wand` is meant.
+/// `source = "/isochron/wand"` where `wand` is meant, or a prefix with the name of a device.
 void osc_names(const CheckedRoom& room, const Tell& tell) {
     for (const interaction::OscOptions& tracker : room.config().devices.osc)
-        for (const interaction::OscDevice& each : tracker.devices)
-            if (each.source.starts_with('/'))
+        for (const interaction::OscDevice& each : tracker.devices) {
+            const char* why = each.source.starts_with('/') ? "a name has no slash"
+                              : tracker.prefix.ends_with("/" + each.source)
+                                  ? "the prefix stands before the device's name"
+                                  : nullptr;
+            if (why)
                 tell(room, tracker.line,
-                     fmt::format("'{}': poses would come to {}/{}/pose: a name has no slash",
-                                 each.source, tracker.prefix, each.source));
+                     fmt::format("'{}': poses would come to {}/{}/pose: {}", each.source,
+                                 tracker.prefix, each.source, why));
+        }
 }
 
 void sources_read_twice(const CheckedRoom& room, const Tell& tell) {
@@ -246,18 +251,28 @@ bool is_this_machine(const std::string& address) {
     return address.starts_with("127.") || address == "::1";
 }
 
+/// Whether an address is that of a group of machines, of a whole network, or of any machine.
+bool is_of_many(const std::string& address) {
+    const int first = std::atoi(address.c_str());
+    return address.find('.') != address.npos &&
+           ((first >= 224 && first < 240) || address.ends_with(".255") || address == "0.0.0.0");
+}
+
 /// Addresses at which nothing arrives.
 void unlikely_addresses(const CheckedRoom& room, const Tell& tell) {
     each_listener(room, [&](const interaction::Endpoint& endpoint, const std::string& key,
                             const auto& tracker) {
         const std::string& own = endpoint.address;
-        const int first = std::atoi(own.c_str());
         std::string why;
-        if (own.find('.') != own.npos && ((first >= 224 && first < 240) || own.ends_with(".255")))
+        if (is_of_many(own) && own != "0.0.0.0")
             why = "is an address of many machines; expected this machine's";
         if constexpr (requires { tracker.from; })
             if (tracker.from && !is_this_machine(tracker.from->address)) {
-                if (is_this_machine(own))
+                if (is_of_many(tracker.from->address))
+                    why = fmt::format("would hear {} alone, which is no sender: from is the "
+                                      "tracker's own address",
+                                      tracker.from->address);
+                else if (is_this_machine(own))
                     why = fmt::format("hears this machine alone, and from is {}",
                                       tracker.from->address);
                 else if (own == tracker.from->address)
@@ -310,7 +325,8 @@ void scales(const CheckedRoom& room, const Tell& tell) {
 }
 
 void places_of_trackers(const CheckedRoom& room, const Tell& tell) {
-    constexpr float kBeside = 5; // [m] from walls and viewers
+    constexpr float kBeside = 5;    // [m] from walls and viewers
+    constexpr float kUnder = 0.75f; // [m]
     std::vector<const Wall*> walls;
     for (const Wall& wall : room.walls())
         walls.push_back(&wall);
@@ -322,12 +338,18 @@ void places_of_trackers(const CheckedRoom& room, const Tell& tell) {
     each_tracker(room.config().devices, [&](const char* key, const auto& tracker) {
         const glm::vec3 at = tracker.common.calibration.room_from_tracker.position;
         const float away = glm::distance(at, glm::clamp(at, box.low, box.high));
+        const float under = floor_level(walls) - at.y;
         if (away > kBeside)
             tell(
                 room, tracker.line,
                 fmt::format("the tracker's origin is {:.4g} m from walls and viewer: meters in the "
                             "room{}",
                             away, other_unit(glm::length(at), 0.3f, 5)),
+                key);
+        else if (under > kUnder)
+            tell(
+                room, tracker.line,
+                fmt::format("the tracker's origin is {:.4g} m under the floor: y points up", under),
                 key);
     });
 }
@@ -394,6 +416,56 @@ void markers_as_heads(const CheckedRoom& room, const Tell& tell) {
                                  "walls at the side: expected a body",
                                  each.device.name),
                      "dtrack");
+}
+
+/// A ray cannot be pointed by a marker, and a flystick is no thing to wear.
+void kinds_of_devices(const CheckedRoom& room, const Tell& tell) {
+    for (const interaction::DTrackOptions& tracker : room.config().devices.dtrack)
+        for (const interaction::DTrackDevice& each : tracker.devices) {
+            const std::string& name = each.device.name;
+            const char* why = each.kind == DTrackKind::flystick && is_head(room, name)
+                                  ? "a flystick is held in a hand, heads are bodies: are the two "
+                                    "exchanged?"
+                              : each.kind == DTrackKind::marker && name.starts_with("wand")
+                                  ? "a marker has no orientation, so that nothing can be pointed "
+                                    "at: expected a flystick or a body"
+                                  : nullptr;
+            if (why)
+                tell(room, tracker.line, fmt::format("{}: {}", name, why), "dtrack");
+        }
+}
+
+/// DTrack's own pages count from 1, its datagrams from 0.
+void numbers_from_one(const CheckedRoom& room, const Tell& tell) {
+    for (const interaction::DTrackOptions& tracker : room.config().devices.dtrack) {
+        std::map<DTrackKind, int> least;
+        for (const interaction::DTrackDevice& each : tracker.devices)
+            if (each.kind != DTrackKind::marker) {
+                const auto known = least.emplace(each.kind, each.id).first;
+                known->second = std::min(known->second, each.id);
+            }
+        if (least.size() > 1 &&
+            std::ranges::all_of(least, [](const auto& kind) { return kind.second == 1; }))
+            tell(room, tracker.line,
+                 "the first body and the first flystick are number 1: DTrack's datagrams count "
+                 "both from 0",
+                 "dtrack");
+    }
+}
+
+/// Buttons of one box for two hands: each press is one of both.
+void shared_buttons(const CheckedRoom& room, const Tell& tell) {
+    for (const interaction::VrpnOptions& tracker : room.config().devices.vrpn)
+        for (std::size_t i = 0; i < tracker.devices.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                if (const auto &a = tracker.devices[j], &b = tracker.devices[i];
+                    !b.buttons.empty() && a.buttons == b.buttons &&
+                    a.device.buttons == b.device.buttons && a.device.name != b.device.name)
+                    tell(room, tracker.line,
+                         fmt::format("{} and {} both have the buttons of {}: buttons = [...] says "
+                                     "which are whose",
+                                     a.device.name, b.device.name, b.buttons),
+                         "vrpn");
 }
 
 /// Text that says which number a list has twice; empty: none.
@@ -464,15 +536,16 @@ void valuator_lists(const CheckedRoom& room, const Tell& tell) {
 }
 
 void valuator_factors(const CheckedRoom& room, const Tell& tell) {
-    constexpr float kMost = 20;
+    constexpr float kLeast = 0.05f, kMost = 20;
     for (const ListedDevice& device : listed(room))
         for (const float factor : device.options.valuator_factors)
-            if (factor == 0 || std::abs(factor) > kMost)
+            if (std::abs(factor) < kLeast || std::abs(factor) > kMost)
                 tell(room, device.line,
                      fmt::format("{}: {:g} {}; 1 leaves a valuator as it is, from -1 to 1",
                                  device.options.name, factor,
-                                 factor == 0 ? "makes a valuator stand still"
-                                             : "moves it at the slightest touch"),
+                                 factor == 0                 ? "makes a valuator stand still"
+                                 : std::abs(factor) < kLeast ? "hardly moves it"
+                                                             : "moves it at the slightest touch"),
                      device.key);
 }
 
@@ -490,14 +563,22 @@ void limits_of_prediction(const CheckedRoom& room, const Tell& tell) {
     }
 }
 
-/// `Tracker0@host`, not `host@Tracker0`.
+/// `Tracker0@host`, not `host@Tracker0`, and not the buttons' name for the tracker's.
 void names_of_vrpn(const CheckedRoom& room, const Tell& tell) {
     for (const interaction::VrpnOptions& tracker : room.config().devices.vrpn)
         for (const interaction::VrpnDevice& each : tracker.devices)
-            for (const std::string& name : {each.tracker, each.buttons, each.analog}) {
+            for (const auto& [name, kind] :
+                 {std::pair(each.tracker, "Tracker"), std::pair(each.buttons, "Button"),
+                  std::pair(each.analog, "Analog")}) {
                 const std::size_t at = std::min(name.find('@'), name.size());
-                if (!name.empty() && (at == 0 || at + 1 >= name.size() ||
-                                      interaction::is_address(name.substr(0, at))))
+                const auto of_kind = [&](const char* word) { return name.starts_with(word); };
+                if (!of_kind(kind) && (of_kind("Tracker") || of_kind("Button")))
+                    tell(room, tracker.line,
+                         fmt::format("{}: '{}' is named as {}", each.device.name, name,
+                                     of_kind("Tracker") ? "a tracker is" : "buttons are"),
+                         "vrpn");
+                else if (!name.empty() && (at == 0 || at + 1 >= name.size() ||
+                                           interaction::is_address(name.substr(0, at))))
                     tell(room, tracker.line,
                          fmt::format("{}: '{}': expected NAME@HOST", each.device.name, name),
                          "vrpn");
@@ -524,6 +605,9 @@ constexpr Check kOfDevices[]{
     {"*.devices.offset", Check::odd, offsets},
     {"*.devices.rotation", Check::odd, rotations},
     {"*.devices.marker", Check::odd, markers_as_heads},
+    {"*.devices", Check::odd, kinds_of_devices},
+    {"*.devices", Check::odd, numbers_from_one},
+    {"*.devices.button", Check::odd, shared_buttons},
     {"*.devices.buttons", Check::odd, button_lists},
     {"*.devices.valuators", Check::odd, valuator_lists},
     {"*.devices.valuator_factors", Check::odd, valuator_factors},

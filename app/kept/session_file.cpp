@@ -101,7 +101,7 @@ SavedSession session_from(const json& value) {
 bool is_lasting(const SavedSession& session) {
     const interaction::Commands& state = session.state;
     return !session.name.empty() || (state.mark && state.mark->point) ||
-           (state.ruler && !state.ruler->places.empty()) ||
+           (state.rulers && !state.rulers->list.empty()) ||
            (state.bookmarks && !state.bookmarks->empty()) || (state.keys && !state.keys->empty());
 }
 

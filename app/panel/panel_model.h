@@ -6,6 +6,7 @@
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
 #include "app/frame/piece_list.h"
+#include "app/frame/profile.h"
 #include "app/frame/step_curve.h"
 #include "index/extraction/extraction.h"
 #include "index/file/index_file.h"
@@ -98,13 +99,13 @@ struct PanelWork {
     const StepSurvey* survey = nullptr;         ///< survey of the shown step; null: none yet
 };
 
-/// What `CurveDrawer::measure` has for the values at the mark.
-inline constexpr std::string_view kMarkCurve = "mark";
+using interaction::kMarkCurve, interaction::kProfileCurve;
 
 /// Numbers of the surfaces over all steps.
 struct PanelCurves {
     std::vector<StepCurvePtr> surfaces{}; ///< one a surface; null: hidden, or not there
     StepCurvePtr mark{};                  ///< the value at the mark; null: none
+    ProfilePtr profile{};                 ///< the values along the ruler; null: none
     std::string failure{};                ///< why steps could not be measured; empty: all could
     std::function<void()> save{};         ///< writes them as a table; empty: that is not offered
 };

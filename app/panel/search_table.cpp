@@ -4,6 +4,7 @@
 #include "app/config/config.h"
 #include "app/config/first_placement.h"
 #include "app/frame/history.h"
+#include "app/panel/item_table.h"
 #include "app/panel/parts/color_section.h"
 #include "app/panel/parts/curve_drawer.h"
 #include "app/panel/parts/piece_lines.h"
@@ -21,6 +22,7 @@
 #include "interaction/navigation/story.h"
 #include "interaction/step_track.h"
 #include "interaction/tools/clip_box.h"
+#include "interaction/tools/ruler_tool.h"
 #include "interaction/tools/slice_tool.h"
 
 #include <fmt/format.h>
@@ -252,6 +254,13 @@ constexpr OtherNames kOtherNames[] = {
     {"remove_clip", "no clip, clip off, unclip, remove slice, delete clip plane, show whole"},
     {"ruler_tool", "measure, measurement, distance, length, tape, line tool, dimension, caliper, "
                    "how far, how long, width, distance between points"},
+    {"ruler_angle", "angle, protractor, measure angle, three points, degrees, corner, slope"},
+    {"profile", "line profile, plot profile, plot over line, line plot, intensity profile, values "
+                "along a line, transect, cross section curve, sample along line, linescan"},
+    {"curves=profile", "line profile, plot over line, values along a line"},
+    {"annotations", "hide marks, hide rulers, hide annotations, show annotations, hide labels, "
+                    "declutter"},
+    {"remove_rulers", "clear measurements, delete all measurements, remove all rulers"},
     {"remove_ruler", "clear measurements, delete measurement, remove distance, remove ruler, erase "
                      "measurement"},
     {"remove_mark", "delete markers, clear marks, remove marker, remove point, clear selection, "
@@ -362,6 +371,9 @@ constexpr OtherNames kOtherNames[] = {
      "extent, bounds, size, value range, shape, number of points, statistics, memory size, "
      "pixel size, data type, details, header, minimum, maximum, missing values, nan, holes, gaps, "
      "fill value"},
+    {"objects", "outliner, pipeline browser, object list, list of objects, layers, layer list, "
+                "scene tree, tree view, scene graph, what is in the picture, visibility, hide, "
+                "list of marks, list of slices, list of rulers, show and hide"},
     {"array", "variable, scalar, scalars, active scalars, field, channel, quantity, component, "
               "contour by, layer, attribute, dataset"},
     {"next_array", "next variable, switch variable, other field, next layer"},
@@ -376,8 +388,7 @@ constexpr OtherNames kOtherNames[] = {
     {"redo", "do again, repeat change, restore change"},
     {"panel",
      "sidebar, side panel, hide sidebar, hide panel, toolbar, properties, dock, ui, hide "
-     "interface, menu, distraction free, inspector, outliner, layer list, pipeline browser, "
-     "tree view, scene tree"},
+     "interface, menu, distraction free, inspector"},
     {"quit", "exit, close, close program, leave"},
     {"ask_to_quit", "exit, close, close program, quit program, leave"},
 };
@@ -407,7 +418,7 @@ std::vector<KeyCommand> all_key_commands() {
 }
 
 /// The sections, in the order of `sections()`.
-enum SectionNumber : std::size_t { kData, kSurfaces, kColor, kView, kTimeBar };
+enum SectionNumber : std::size_t { kData, kObjects, kSurfaces, kColor, kView, kTimeBar };
 static_assert(std::size_t{kTimeBar} == kSections);
 
 std::string percent(double share) {
@@ -855,8 +866,11 @@ void add_tools(Lines& lines) {
     };
     remove("remove_mark", "remove the mark", asked.mark.point.has_value(), &Commands::mark,
            interaction::Mark{});
-    remove("remove_ruler", "remove the ruler", !asked.ruler.places.empty(), &Commands::ruler,
-           interaction::Ruler{});
+    const interaction::Rulers& rulers = asked.rulers;
+    remove("remove_ruler", "remove the ruler", rulers.chosen() != nullptr, &Commands::rulers,
+           without_ruler(rulers, rulers.picked));
+    remove("remove_rulers", "remove all rulers", rulers.list.size() > 1, &Commands::rulers,
+           interaction::Rulers{.angle = rulers.angle});
     remove("remove_clip", "remove the clip plane", asked.clip.shown, &Commands::clip,
            interaction::ClipPlane{});
     if (asked.clip_box.shown)
@@ -871,7 +885,7 @@ void add_tools(Lines& lines) {
     if (slices.shown())
         lines.add({.name = "flat_slice",
                    .words = "flat: look straight at the slice",
-                   .commands = flat_view(lines.model())});
+                   .commands = flat_view(lines.model(), slices)});
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
     for (int axis = 0; axis < 3; ++axis) {
         const char* const name = kAxes[static_cast<std::size_t>(axis)];
@@ -891,6 +905,24 @@ void add_tools(Lines& lines) {
             return effect;
         };
     }
+}
+
+/// What stands in the picture, each by its name: choosing its line is its eye.
+void add_objects(Lines& lines) {
+    const PanelModel& model = lines.model();
+    lines.control("objects", "objects: the list of what is in the picture", words_for_items(model),
+                  kObjects);
+    for (const ItemKind& kind : item_kinds())
+        for (std::size_t i = 0; i < kind.count(model); ++i) {
+            const Item item = kind.item(model, i);
+            SearchLine& line = lines.add({.name = fmt::format("{}={}", kind.name, item.name),
+                                          .words = fmt::format("{} {}", item.shown ? "hide" : "show",
+                                                               words_of_item(item)),
+                                          .others = std::string(other_names(kind.name)),
+                                          .value = item.shown ? "shown" : "hidden"});
+            if (!item.faulty) // else its eye may open a file
+                show_item(kind, model, i, !item.shown, line.commands);
+        }
 }
 
 /// The models, each by the name of its file.
@@ -921,7 +953,6 @@ void add_models(Lines& lines) {
                  .value = models[i].*on ? "on" : "off",
                  .commands = with([on](interaction::Model& each) { each.*on = !(each.*on); })});
         };
-        add("model", fmt::format("model {}: shown", name), &interaction::Model::shown);
         add("model_edges", fmt::format("model {}: edges, not faces", name),
             &interaction::Model::lines);
         const auto opaque = [with](double opacity) {
@@ -961,6 +992,8 @@ void add_curves(Lines& lines) {
             add(each.name, fmt::format("curve: {} over time", words_of_measure(each.name)));
     if (asked.mark.point)
         add(kMarkCurve, "curve: value at the mark over time");
+    if (asked.rulers.chosen() && asked.rulers.chosen()->complete())
+        add(kProfileCurve, "curve: values along the ruler");
 }
 
 Commands shown_at(const PanelModel& model, index::Instant at) {
@@ -1239,6 +1272,7 @@ std::vector<SearchLine> search_lines(const PanelModel& model) {
     add_tools(lines);
     add_time(lines);
     add_curves(lines);
+    add_objects(lines);
     add_models(lines);
     add_film(lines);
     add_pictures(lines);

@@ -1,6 +1,7 @@
 // Decides when a wanted capture is taken.
 #include "app/quality/capture_wait.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace isochron::app {
@@ -30,7 +31,7 @@ bool CaptureWait::take(const CaptureView& now) {
         asked_since_ = now.time;
     const bool under_way = (!now.has_cells() || now.improves) && now.time - asked_since_ >= kSteady;
     if (before && !under_way)
-        waited_ += now.time - before->time;
+        waited_ += std::min(now.time - before->time, kOfFrame);
     if (!now.is_final() && (under_way || waited_ < kPatience))
         return false;
     --wanted_;

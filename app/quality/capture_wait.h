@@ -33,6 +33,8 @@ class CaptureWait {
   public:
     static constexpr interaction::Seconds kPatience{10};
     static constexpr interaction::Seconds kSteady{1}; ///< without a change of the query
+    /// More of one frame does not count: some slow frames are no endless motion.
+    static constexpr interaction::Seconds kOfFrame{0.5};
 
     void ask();
     int wanted() const { return wanted_; }

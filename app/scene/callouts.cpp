@@ -145,13 +145,14 @@ std::vector<Callout> callouts_of(const Picture& picture,
     if (picture.told)
         callouts.push_back(
             {in_room(picture.told->place), picture.told->lines, overlay.text, CalloutSign::dot});
-    if (const auto& mark = picture.mark.point)
+    const auto& mark = picture.mark.point;
+    if (mark && mark->shown)
         callouts.push_back({in_room(mark->position), mark_lines(*mark, info),
                             readable(kMarkColor, overlay), CalloutSign::cross});
-    for (const interaction::NamedMark& mark : picture.marks)
-        if (!picture.mark.point || mark.point.position != picture.mark.point->position)
-            callouts.push_back({in_room(mark.point.position),
-                                {mark.name},
+    for (const interaction::NamedMark& kept : picture.marks)
+        if (kept.point.shown && (!mark || kept.point.position != mark->position))
+            callouts.push_back({in_room(kept.point.position),
+                                {kept.name},
                                 readable(kMarkColor, overlay),
                                 CalloutSign::cross});
     for (const interaction::ToolLabel& label : picture.tools.labels)

@@ -24,7 +24,7 @@ bool is_marked(const interaction::Pointed& pointed, const interaction::Pose& vie
                const ExplorerState& state) {
     constexpr double kApart = 0.012; // [rad] some pixels more than the arms of the mark
     const auto& mark = state.mark.point;
-    if (!mark || mark->instant != pointed.point.instant)
+    if (!mark || !mark->shown || mark->instant != pointed.point.instant)
         return false;
     const auto way = [&](const interaction::MarkedPoint& point) {
         return glm::normalize(transform(state.room_from_physical, point.position) -

@@ -47,23 +47,30 @@ std::optional<index::VertexBox> cells_in(const interaction::ClipBox& box, const 
     return cells;
 }
 
-/// Writes a table under a name that no file has. @return what the user is told
-std::string write_table(const fs::path& folder, const std::vector<StepCurvePtr>& curves) {
+/// Writes a table under a name that no file has. @return its path
+fs::path write_table(const fs::path& folder, const char* name, const std::string& text) {
     index::make_folder(folder);
     fs::path path;
     std::error_code ignored;
     for (int number = 1; number == 1 || fs::exists(fs::symlink_status(path, ignored)); ++number)
-        path = folder / fmt::format("isochron_curves_{:04}.csv", number);
-    const std::string text = csv_of(curves);
+        path = folder / fmt::format("isochron_{}_{:04}.csv", name, number);
     index::NewFile file(path);
     file.write_at(0, std::as_bytes(std::span(text)));
     file.commit();
-    const auto known = std::ranges::count(curves.front()->known, std::uint8_t{1});
-    return fmt::format("saved {}: {} of {} steps", whole_path(path), known,
-                       curves.front()->steps());
+    return path;
 }
 
 } // namespace
+
+SessionCurves::SessionCurves(CurveMaker::Measure measure)
+    : maker_(std::move(measure)),
+      profiling_(
+          [](const ProfileQuery& query, const Asking& asking) {
+              return Profiled{query, std::make_shared<Profile>(profile_of(query, asking.stop)), {}};
+          },
+          [](const ProfileQuery& query, const std::string& why, bool) {
+              return Profiled{query, nullptr, why};
+          }) {}
 
 std::optional<glm::dvec3> marked_place(const interaction::Settings& settings) {
     return settings.mark.point ? std::optional(settings.mark.point->position) : std::nullopt;
@@ -72,12 +79,37 @@ std::optional<glm::dvec3> marked_place(const interaction::Settings& settings) {
 void SessionCurves::set_wake(const std::function<void()>& wake) {
     maker_.set_wake(wake);
     writing_.set_wake(wake);
+    profiling_.set_wake(wake);
 }
 
 void SessionCurves::write_to(CurveFolders folders) {
     if (folders.kept)
         maker_.keep_in(KeptCurves(*folders.kept));
     folders_ = std::move(folders);
+}
+
+/// One profile is made at a time; the newest wish follows it.
+void SessionCurves::update_profile(const Frame& frame, const ShownArrays& arrays, bool seen) {
+    const auto take = [&] {
+        for (Profiled& each : profiling_.take()) {
+            profiles_ = false;
+            profiled_ = std::move(each);
+        }
+    };
+    take();
+    const interaction::Ruler* const ruler = frame.state.rulers.chosen();
+    profile_wanted_ = seen && ruler && ruler->complete();
+    if (!profile_wanted_)
+        return;
+    const ProfileQuery query{arrays.held(frame.state), frame.state.shown_instant(), ruler->places};
+    if (profiled_.query == query || profiles_)
+        return;
+    profiles_ = profiling_.ask(query);
+    if (frame.is_live() && frame.sharing.alone())
+        return;
+    const DrawsOnly waits; // replays, and all walls, show the same
+    profiling_.finish();
+    take();
 }
 
 void SessionCurves::update(const Frame& frame, const ShownArrays& arrays,
@@ -116,6 +148,8 @@ void SessionCurves::update(const Frame& frame, const ShownArrays& arrays,
                           wanted.subjects);
         wanted.at_hand = extractor.at_hand();
     }
+    update_profile(frame, arrays,
+                   state.curves.shown && state.curves.measure == kProfileCurve && seen);
     maker_.update(wanted);
     if (!frame.is_live() && !wanted.subjects.empty()) { // replays are the same each time
         const DrawsOnly waits;
@@ -132,12 +166,22 @@ std::vector<StepCurvePtr> SessionCurves::shown(bool of_mark) {
 }
 
 void SessionCurves::save(const ExplorerState& state) {
+    const std::string& chosen = state.pictures.folder;
+    const fs::path folder = chosen.empty() ? folders_->tables : fs::path(chosen);
+    if (state.curves.measure == kProfileCurve) {
+        if (const ProfilePtr profile = profile_wanted_ ? profiled_.profile : nullptr)
+            writing_.post([folder, profile] {
+                return "saved " + whole_path(write_table(folder, "profile", csv_of(*profile)));
+            });
+        return;
+    }
     const std::vector<StepCurvePtr> curves = shown(state.curves.measure == kMarkCurve);
     if (curves.empty())
         return;
-    const std::string& chosen = state.pictures.folder;
-    writing_.post([folder = chosen.empty() ? folders_->tables : fs::path(chosen), curves] {
-        return write_table(folder, curves);
+    writing_.post([folder, curves] {
+        return fmt::format(
+            "saved {}: {} of {} steps", whole_path(write_table(folder, "curves", csv_of(curves))),
+            std::ranges::count(curves.front()->known, std::uint8_t{1}), curves.front()->steps());
     });
 }
 
@@ -152,7 +196,9 @@ PanelCurves SessionCurves::in_panel(const ExplorerState& state) {
     for (const auto& number : of_surface_)
         all.surfaces.push_back(curve(number));
     all.mark = curve(of_mark_);
-    all.failure = maker_.failure();
+    if (profile_wanted_)
+        all.profile = profiled_.profile;
+    all.failure = profile_wanted_ ? profiled_.failure : maker_.failure();
     if (folders_)
         all.save = [this, &state] { save(state); };
     return all;

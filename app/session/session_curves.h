@@ -1,8 +1,11 @@
-// The curves of a session: those of the surfaces that it shows, and the values at its mark.
+// The curves of a session: those of the surfaces that it shows, the values at its mark, and those
+// along its ruler.
 #pragma once
 
 #include "app/choice/frame.h"
+#include "app/frame/asker.h"
 #include "app/frame/background_work.h"
+#include "app/frame/profile.h"
 #include "app/panel/panel_model.h"
 #include "app/session/curve_maker.h"
 #include "app/session/shown_arrays.h"
@@ -27,8 +30,7 @@ struct CurveFolders {
 
 class SessionCurves {
   public:
-    explicit SessionCurves(CurveMaker::Measure measure = measured_in_index())
-        : maker_(std::move(measure)) {}
+    explicit SessionCurves(CurveMaker::Measure measure = measured_in_index());
 
     /// Sets the function that is called, on any thread, when there is something new.
     void set_wake(const std::function<void()>& wake);
@@ -44,6 +46,12 @@ class SessionCurves {
     std::vector<std::string> messages() { return writing_.messages(); }
 
   private:
+    struct Profiled {
+        ProfileQuery query;
+        ProfilePtr profile;  ///< null: it could not be made
+        std::string failure; ///< why
+    };
+    void update_profile(const Frame& frame, const ShownArrays& arrays, bool seen);
     void save(const ExplorerState& state);
     std::vector<StepCurvePtr> shown(bool of_mark);
 
@@ -52,6 +60,9 @@ class SessionCurves {
     std::optional<std::size_t> of_mark_;
     bool only_whole_ = false; ///< curves that grow differ from wall to wall
     CurveMaker maker_;
+    Profiled profiled_;                              ///< the last one
+    bool profile_wanted_ = false, profiles_ = false; ///< a panel shows it; one is being made
+    Asker<ProfileQuery, Profiled> profiling_;
     BackgroundWork writing_;
 };
 

@@ -3,6 +3,7 @@
 
 #include "interaction/navigation/navigator.h"
 #include "interaction/tools/clip_tool.h"
+#include "interaction/tools/ruler_tool.h"
 #include "interaction/tools/slice_tool.h"
 #include "interaction/tools/tool_table.h"
 
@@ -102,7 +103,31 @@ void show_next_stereo_mode(const Press& p) {
 }
 
 void remove_made_by_tool(const Press& p) {
-    tool_row(p.context.settings.tools.mouse).remove(p.commands);
+    tool_row(p.context.settings.tools.mouse).remove(p.context.settings, p.commands);
+}
+
+/// Hides all marks and rulers; shows them if all are hidden.
+void show_annotations(const Press& p) {
+    const Settings& settings = p.context.settings;
+    Mark mark = settings.mark;
+    std::vector<NamedMark> marks = settings.marks;
+    Rulers rulers = settings.rulers;
+    std::vector<bool*> all;
+    if (mark.point)
+        all.push_back(&mark.point->shown);
+    for (NamedMark& each : marks)
+        all.push_back(&each.point.shown);
+    for (Ruler& each : rulers.list)
+        all.push_back(&each.shown);
+    const bool show = std::ranges::none_of(all, [](const bool* shown) { return *shown; });
+    for (bool* const shown : all)
+        *shown = show;
+    if (mark != settings.mark)
+        p.commands.mark = mark;
+    if (marks != settings.marks)
+        p.commands.marks = std::move(marks);
+    if (rulers != settings.rulers)
+        p.commands.rulers = std::move(rulers);
 }
 
 /// A key chooses the tool of mouse and wand; picking brings back the first tools of all hands.
@@ -321,6 +346,11 @@ std::vector<KeyLine> all_lines() {
             drawer.shown = !drawer.shown;
             p.commands.curves = drawer;
         });
+    line("Ctrl + Shift + D", "curve: the values along the ruler, on, off");
+    add(profile, "profile", kNoOldBit, {{'D', kCtrlShift}}, kQuiet,
+        "profile: the values along the ruler", [](const Press& p) {
+            p.commands.curves = profile_on_or_off(p.context.settings.curves);
+        });
     line("Y", "panel in the room, beside the data: on, off");
     add(room_panel, "room_panel", 44, {'Y'}, kQuiet);
     line("Enter", "pick the surface under the cursor, or where the wand points");
@@ -340,6 +370,16 @@ std::vector<KeyLine> all_lines() {
             if (p.context.settings.clip.shown)
                 p.commands.clip = flipped(p.context.settings.clip);
         });
+    line("Ctrl + Shift + R", "the ruler measures angles, by three places, or distances");
+    add(ruler_angle, "ruler_angle", kNoOldBit, {{'R', kCtrlShift}}, kQuiet,
+        "ruler: angles between three places, or distances", [](const Press& p) {
+            const Rulers& rulers = p.context.settings.rulers;
+            p.commands.rulers = with_angle(rulers, !rulers.angle);
+            p.notes.emplace_back(rulers.angle ? "the next ruler measures a distance"
+                                              : "the next ruler measures an angle: three places");
+        });
+    line("Ctrl + Shift + H", "marks and rulers: hide all, show all");
+    add(annotations, "annotations", kNoOldBit, {{'H', kCtrlShift}}, kQuiet, "", show_annotations);
     line("Ctrl + 6, Ctrl + Shift + 6", "slice across the next axis, one more slice");
     add(snap_slice, "snap_slice", kNoOldBit, {{'6', kCtrl}}, kQuiet, "slice across the next axis",
         [](const Press& p) {
@@ -385,6 +425,13 @@ std::vector<KeyLine> all_lines() {
 }
 
 } // namespace
+
+CurveDrawer profile_on_or_off(CurveDrawer curves) {
+    const bool profile = curves.shown && curves.measure == kProfileCurve;
+    curves.shown = !profile;
+    curves.measure = kProfileCurve;
+    return curves;
+}
 
 Ghosts ghosts_on_or_off(Ghosts ghosts) {
     constexpr std::uint32_t kUsual = 2;

@@ -57,6 +57,9 @@ std::optional<Action> action_named(std::string_view name);
 /// `more_keys`. Nothing: no action had that bit.
 std::optional<Action> action_of_old_bit(int bit);
 
+/// The drawer of curves with the values along the ruler, or closed if it shows these.
+CurveDrawer profile_on_or_off(CurveDrawer curves);
+
 /// Two ghosts in each direction of time where there are none, and else none.
 Ghosts ghosts_on_or_off(Ghosts ghosts);
 

@@ -110,6 +110,9 @@ enum class Action : std::uint8_t {
     next_told,
     previous_told,
     leave_story,
+    ruler_angle,
+    profile,
+    annotations,
     count
 };
 /// Each tool can be chosen, too: those actions follow the others.

@@ -27,7 +27,7 @@ void each_held(Visit&& visit, Records&... r) {
     visit(r.between...);
     visit(r.mark...);
     visit(r.clip...);
-    visit(r.ruler...);
+    visit(r.rulers...);
     visit(r.slices...);
     visit(r.clip_box...);
     visit(r.pieces...);

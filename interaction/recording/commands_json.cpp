@@ -32,6 +32,7 @@ template <class T>
 void from_json(const json& value, const Field& field, std::vector<T>& into);
 json to_json(const Mark& mark);
 void from_json(const json& value, const Field& field, Mark& into);
+void from_json(const json& value, const Field& field, Rulers& into);
 
 // Numbers, words and texts.
 
@@ -170,8 +171,12 @@ void from_json(const json& value, const Field& field, T& into) {
     const auto read = [&]<class V>(const Field& inner, V& member) {
         known.emplace_back(inner.key);
         constexpr bool kOptional = requires { member.has_value(); };
-        const json* const found = kOptional || inner.may_lack ? members.find(inner.key)
-                                                              : &members.at(inner.key);
+        const json* found =
+            kOptional || inner.may_lack ? members.find(inner.key) : &members.at(inner.key);
+        if (!found && inner.old_key) {
+            known.emplace_back(inner.old_key);
+            found = members.find(inner.old_key);
+        }
         if constexpr (kOptional) {
             if (found)
                 from_json(*found, inner, member.emplace());
@@ -190,6 +195,18 @@ json to_json(const Mark& mark) {
 void from_json(const json& value, const Field& field, Mark& into) {
     if (!value.is_null())
         from_json(value, field, into.point.emplace());
+}
+
+/// Recordings of older versions have one ruler: its places.
+void from_json(const json& value, const Field& field, Rulers& into) {
+    if (!value.is_object() || !value.contains("places"))
+        return from_json<Rulers>(value, field, into);
+    Members members(value, field.key);
+    Ruler ruler{.name = "1"};
+    from_json(members.at("places"), Field{.key = "places", .most = 2}, ruler.places);
+    members.done({"places"});
+    if (!ruler.places.empty())
+        into.list.push_back(std::move(ruler));
 }
 
 template <class T>

@@ -25,7 +25,7 @@ ToolOutcome PickTool::update(std::span<const ToolHand> hands, const ToolContext&
     return outcome;
 }
 
-std::vector<MarkedRow> mark_rows(const Commands& commands) {
+std::vector<MarkedRow> mark_rows(const Commands& commands, const Settings&) {
     if (!commands.mark || !commands.mark->point)
         return {};
     const MarkedPoint& point = *commands.mark->point;

@@ -11,6 +11,6 @@ class PickTool final : public Tool {
 };
 
 /// The place that these commands have marked.
-std::vector<MarkedRow> mark_rows(const Commands& commands);
+std::vector<MarkedRow> mark_rows(const Commands& commands, const Settings& before);
 
 } // namespace isochron::interaction

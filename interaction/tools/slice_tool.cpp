@@ -38,9 +38,11 @@ int axis_along(const glm::dvec3& ahead, const ToolContext& now) {
 Slices laid(Slices slices, const Pose& ray, const ToolContext& now) {
     const auto found = now.session.find_surface ? now.session.find_surface(ray) : std::nullopt;
     const DataFrame& data = now.session.data;
-    slices.planes = {{found ? found->point.position : middle_of(data),
-                      across(axis_along(ahead_of(ray), now), data)}};
-    slices.picked = 0;
+    if (slices.planes.size() == kMostSlices) // all of them hidden
+        slices.planes.pop_back();
+    slices.planes.push_back({found ? found->point.position : middle_of(data),
+                             across(axis_along(ahead_of(ray), now), data)});
+    slices.picked = static_cast<std::uint32_t>(slices.planes.size()) - 1;
     return slices;
 }
 
@@ -49,11 +51,14 @@ std::optional<std::uint32_t> slice_met(const Slices& slices, const Pose& ray,
                                        const ToolContext& now) {
     std::optional<std::uint32_t> first;
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < slices.planes.size(); ++i)
+    for (std::size_t i = 0; i < slices.planes.size(); ++i) {
+        if (!slices.planes[i].shown)
+            continue;
         if (const auto met = meeting_of(ray, slices.planes[i], now); met && met->along < nearest) {
             nearest = met->along;
             first = static_cast<std::uint32_t>(i);
         }
+    }
     return first;
 }
 
@@ -62,7 +67,7 @@ std::optional<std::uint32_t> slice_met(const Slices& slices, const Pose& ray,
 ToolOutcome SliceTool::update(std::span<const ToolHand> hands, const ToolContext& now) {
     ToolOutcome outcome;
     const Slices& slices = now.session.settings.slices;
-    if (!slices.shown()) {
+    if (!slices.seen()) {
         hold_.let_go();
         for (const ToolHand& hand : hands)
             if (hand.ray && hand.chosen)
@@ -75,7 +80,9 @@ ToolOutcome SliceTool::update(std::span<const ToolHand> hands, const ToolContext
         if (hand.ray && hand.pressed)
             after.picked = slice_met(slices, *hand.ray, now).value_or(after.picked);
     Plane& plane = after.planes[after.picked];
-    const Plane moved = hold_.update(hands, plane, now);
+    if (!plane.shown)
+        hold_.let_go();
+    const Plane moved = plane.shown ? hold_.update(hands, plane, now) : plane;
     if (!outline(moved, now.session.data).empty()) // else it would be lost
         plane = moved;
     if (after != slices)
@@ -113,6 +120,7 @@ Slices snapped(Slices slices, int axis, const DataFrame& data) {
         slices.planes.push_back({middle_of(data), {}});
     slices.picked = std::min(slices.picked, static_cast<std::uint32_t>(slices.planes.size()) - 1);
     slices.planes[slices.picked].normal = across(axis, data);
+    slices.planes[slices.picked].shown = true;
     return slices;
 }
 
@@ -154,6 +162,8 @@ ToolDrawing draw_slices(const Settings& settings, const DataFrame& data) {
     ToolDrawing drawing;
     const Slices& slices = settings.slices;
     for (std::size_t i = 0; i < slices.planes.size(); ++i) {
+        if (!slices.planes[i].shown)
+            continue;
         const bool picked = i == slices.picked && slices.planes.size() > 1;
         const auto lines =
             outline_lines(slices.planes[i], data, picked ? kPickedSlice : kSliceColor);

@@ -5,7 +5,7 @@
 
 namespace isochron::interaction {
 
-/// While there is no slice, choosing a place lays one through the surface there, or through the
+/// While no slice is seen, choosing a place lays one through the surface there, or through the
 /// middle of the data, across the data's axis that is nearest to the ray. Otherwise hands hold the
 /// slice that their ray meets first, or the picked one (`PlaneHold`).
 class SliceTool final : public Tool {

@@ -62,6 +62,7 @@ struct MarkedRow {
     glm::dvec3 position; ///< physical space
     std::optional<double> value = {};
     std::optional<Instant> at = {}; ///< nothing: the instant that was shown
+    std::string name = {};
 };
 
 /// Turns the readings of the hands that hold it into commands. It depends only on the frames that

@@ -27,7 +27,7 @@ const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table() {
          .found_as = "grab",
          .key = {},
          .make = made<GrabTool>,
-         .remove = [](Commands& commands) { commands.mark = Mark{}; }},
+         .remove = [](const Settings&, Commands& commands) { commands.mark = Mark{}; }},
         {.kind = ToolKind::pick,
          .words = "pick",
          .effect = "marks the place on a surface",
@@ -38,7 +38,7 @@ const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table() {
          .make = made<PickTool>,
          .makes = "mark",
          .made = [](const Settings& settings) { return settings.mark.point.has_value(); },
-         .remove = [](Commands& commands) { commands.mark = Mark{}; },
+         .remove = [](const Settings&, Commands& commands) { commands.mark = Mark{}; },
          .rows = mark_rows,
          .old_bit = 49},
         {.kind = ToolKind::clip,
@@ -56,7 +56,7 @@ const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table() {
              },
          .held = true,
          .remove =
-             [](Commands& commands) {
+             [](const Settings&, Commands& commands) {
                  commands.clip = ClipPlane{};
                  commands.clip_box = ClipBox{};
              },
@@ -64,17 +64,19 @@ const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table() {
          .old_bit = 50},
         {.kind = ToolKind::ruler,
          .words = "ruler",
-         .effect = "measures between two places on surfaces",
+         .effect = "measures between places on surfaces",
          .icon = "M 2 16 L 16 2 L 22 8 L 8 22 Z M 6 12 L 9 15 M 9 9 L 11 11 M 12 6 L 15 9",
-         .found_as = "ruler (measures a length)",
+         .found_as = "ruler (measures a length or an angle)",
          .key = '6',
          .looks_at_surfaces = true,
          .make = made<RulerTool>,
          .makes = "ruler",
-         .made = [](const Settings& settings) { return !settings.ruler.places.empty(); },
-         .remove = [](Commands& commands) { commands.ruler = Ruler{}; },
-         .line = ruler_line,
-         .draw = draw_ruler,
+         .made = [](const Settings& settings) { return !settings.rulers.list.empty(); },
+         .remove =
+             [](const Settings& settings, Commands& commands) {
+                 commands.rulers = without_ruler(settings.rulers, settings.rulers.picked);
+             },
+         .draw = draw_rulers,
          .rows = ruler_rows,
          .old_bit = 51},
         {.kind = ToolKind::slice,
@@ -87,9 +89,9 @@ const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table() {
          .looks_at_surfaces = true,
          .make = made<SliceTool>,
          .makes = "slice",
-         .made = [](const Settings& settings) { return settings.slices.shown(); },
+         .made = [](const Settings& settings) { return settings.slices.seen(); },
          .held = true,
-         .remove = [](Commands& commands) { commands.slices = Slices{}; },
+         .remove = [](const Settings&, Commands& commands) { commands.slices = Slices{}; },
          .draw = draw_slices},
     }};
     return rows;

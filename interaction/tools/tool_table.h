@@ -29,12 +29,12 @@ struct ToolRow {
     std::string_view makes = {};             ///< what that is called: `ruler`
     bool (*made)(const Settings&) = nullptr; ///< whether it is there
     bool held = false;                       ///< hands hold that, and move it
-    void (*remove)(Commands&);               ///< what Delete does while the mouse holds the tool
-    std::string (*line)(const Settings&) = nullptr; ///< said on the panel, beside its removal
+    /// What Delete does while the mouse holds the tool.
+    void (*remove)(const Settings& settings, Commands& commands);
     /// Also while no hand holds the tool.
     ToolDrawing (*draw)(const Settings& settings, const DataFrame& data) = nullptr;
-    /// The rows of what these commands have made.
-    std::vector<MarkedRow> (*rows)(const Commands&) = nullptr;
+    /// The rows of what these commands have made. @param before the settings that they changed
+    std::vector<MarkedRow> (*rows)(const Commands&, const Settings& before) = nullptr;
 
     int old_bit = kNoOldBit; ///< bit of the action that chooses it, in recordings of version 1
 };

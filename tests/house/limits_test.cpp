@@ -124,6 +124,35 @@ TEST(Limits, EachNumberThatIsStatedHasItsCodeAndItsTest) {
     }
 }
 
+/// Numbers with their units, as `65,537`, `2^35` or `8 million`, in cells of a table below a heading.
+std::set<std::string> limits_of_table(const std::string& page, const std::string& heading) {
+    static const std::regex kNumber(R"([ (](2\^[0-9]+|[0-9][0-9,]*(?: million)?)(?![0-9^]|,[0-9]))");
+    const std::size_t begin = page.find("\n" + heading + "\n"), end = page.find("\n## ", begin + 1);
+    std::set<std::string> limits;
+    std::istringstream lines(page.substr(begin, end - begin));
+    for (std::string line; std::getline(lines, line);) {
+        const bool is_tried = line.find(" were tried") != line.npos;
+        for (std::sregex_iterator found(line.begin(), line.end(), kNumber), last;
+             line.starts_with("| ") && !is_tried && found != last; ++found)
+            limits.insert((*found)[1]);
+    }
+    return limits;
+}
+
+TEST(Limits, EachLimitOfSizeInTheGuideIsANumberThatIsStated) {
+    std::string stated;
+    for (const Row& row : numbers_stated(read_text(checkout() / "docs/LIMITS.md")))
+        stated += row[0] + "\n";
+    const auto limits =
+        limits_of_table(read_text(checkout() / "docs/guide/limits.md"), "## How large");
+    EXPECT_GT(limits.size(), 5u);
+    for (const std::string& limit : limits)
+        EXPECT_NE(stated.find(limit), stated.npos) << limit;
+    EXPECT_THAT(
+        limits_of_table("\n## A\n| x | 2^35, 17 of 2048^3 was tried |\n## B\n| 3 |", "## A"),
+        testing::ElementsAre("17", "2^35"));
+}
+
 TEST(Limits, EachBoundThatIsPrintedIsANumberThatIsStated) {
     const std::vector<std::string> phrases =
         phrases_of(numbers_stated(read_text(checkout() / "docs/LIMITS.md")));

@@ -33,7 +33,8 @@ class Tell {
 
 // The checks of each topic. A further check is a function and its row in one of these.
 std::span<const Check> checks_of_screens();
-std::span<const Check> checks_of_walls(); ///< how the screens of a room stand to one another
+std::span<const Check> checks_of_walls();    ///< how the screens of a room stand to one another
+std::span<const Check> checks_of_displays(); ///< how displays share windows, desktops and planes
 std::span<const Check> checks_of_viewers();
 std::span<const Check> checks_of_devices();
 std::span<const Check> checks_of_values(); ///< numbers that are unlikely to be meant

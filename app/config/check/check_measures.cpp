@@ -48,20 +48,6 @@ void shared_heads(const CheckedRoom& room, const Tell& tell) {
     });
 }
 
-/// Where the floor is: the lowest floor that is a wall; or else the origin, if walls begin about
-/// there or above; or else the foot of the walls.
-float floor_level(const std::vector<const Wall*>& walls) {
-    constexpr float kUnder = 0.3f; // [m] that the foot of a wall may be under the floor
-    float floor = std::numeric_limits<float>::max();
-    for (const Wall* wall : walls)
-        if (wall->is_floor())
-            floor = std::min(floor, wall->middle.y);
-    if (floor < std::numeric_limits<float>::max())
-        return floor;
-    const float foot = walls.empty() ? 0 : CheckedRoom::box_of(walls).low.y;
-    return foot >= -kUnder ? 0 : foot;
-}
-
 /// Eyes far from all walls, above people, or on the floor.
 void places_of_viewers(const CheckedRoom& room, const Tell& tell) {
     constexpr float kRoomAround = 3, kTallest = 2.5f, kLowest = 0.35f, kWallHigh = 1.5f; // [m]
@@ -99,7 +85,7 @@ void places_of_viewers(const CheckedRoom& room, const Tell& tell) {
 
 /// Walls that face each other, and a viewer who is not between them.
 void viewers_outside(const CheckedRoom& room, const Tell& tell) {
-    constexpr float kBeside = 0.3f; // [m]
+    constexpr float kAbove = 0.1f; // [m]
     each_viewer(room, [&](const Viewer& viewer, std::size_t number) {
         const auto walls = room.walls_of(number);
         for (const Wall* wall : walls)
@@ -107,7 +93,7 @@ void viewers_outside(const CheckedRoom& room, const Tell& tell) {
                 if (wall->is_level() || glm::dot(wall->normal, across->normal) > -0.9f)
                     continue;
                 const float top = CheckedRoom::box_of(walls).high.y;
-                if (viewer.position.y > top + kBeside)
+                if (viewer.position.y > top + kAbove)
                     return tell(room, viewer.line.number,
                                 fmt::format("{} at {} looks over walls that face each other and "
                                             "end {:.2f} m up: corners are in meters",
@@ -222,8 +208,9 @@ void order_of_planes(const CheckedRoom& room, const Tell& tell) {
 }
 
 void near_planes(const CheckedRoom& room, const Tell& tell) {
-    constexpr float kReach = 0.5f; // [m]
-    const float front = room.installation().near_plane, farthest = farthest_screen(room);
+    constexpr float kReach = 0.5f, kBefore = 0.5f; // [m]; share of the way to a screen
+    const float front = room.installation().near_plane, farthest = farthest_screen(room),
+                nearest = nearest_screen(room);
     if (front >= farthest)
         tell(room, 0,
              fmt::format("{:.4g} m is behind all screens, the farthest of which is {:.4g} m from "
@@ -234,10 +221,16 @@ void near_planes(const CheckedRoom& room, const Tell& tell) {
              fmt::format("{:.4g} m: what is nearer to the eyes is not drawn, and that is within "
                          "reach: meters",
                          front));
+    else if (front > kBefore * nearest)
+        tell(room, 0,
+             fmt::format("{:.4g} m: a screen is {:.4g} m from its viewer, and most of what stands "
+                         "out of it is not drawn",
+                         front, nearest));
 }
 
 void far_planes(const CheckedRoom& room, const Tell& tell) {
-    const float back = room.installation().far_plane, nearest = nearest_screen(room);
+    const float back = room.installation().far_plane, nearest = nearest_screen(room),
+                farthest = farthest_screen(room);
     const auto way = way_to_data(room);
     const auto half = static_cast<float>(0.5 * room.config().placement.size);
     if (back <= nearest)
@@ -245,6 +238,11 @@ void far_planes(const CheckedRoom& room, const Tell& tell) {
              fmt::format("{:.4g} m is in front of all screens, the nearest of which is {:.4g} m "
                          "from its viewer: what is farther is not drawn",
                          back, nearest));
+    else if (back < farthest)
+        tell(room, 0,
+             fmt::format("{:.4g} m is in front of a screen that is {:.4g} m from its viewer: what "
+                         "is farther is not drawn",
+                         back, farthest));
     else if (way && back < glm::length(*way) - half)
         tell(room, 0,
              fmt::format("{:.4g} m is before the data, which begin {:.4g} m away: what is farther "

@@ -335,11 +335,14 @@ void unused_monitor(const CheckedRoom& room, const Tell& tell) {
 
 void hidden_windows(const CheckedRoom& room, const Tell& tell) {
     const stereo::ContextKind context = room.config().rendering.context;
-    if (context != stereo::ContextKind::glfw && !room.config().openxr.enabled &&
-        std::ranges::any_of(room.installation().windows, &stereo::Window::fullscreen))
+    if (context == stereo::ContextKind::glfw || room.config().openxr.enabled)
+        return;
+    const bool covers =
+        std::ranges::any_of(room.installation().windows, &stereo::Window::fullscreen);
+    if (covers || !room.config().devices.empty())
         tell(room, 0,
-             fmt::format("{} shows no window, and fullscreen asks for one: \"glfw\"",
-                         stereo::name_of(context)));
+             fmt::format("{} shows no window, and {} for one: \"glfw\"", stereo::name_of(context),
+                         covers ? "fullscreen asks" : "trackers are"));
 }
 
 constexpr const char* kProjection = "windows.viewports.projection";

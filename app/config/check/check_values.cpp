@@ -3,9 +3,11 @@
 
 #include "app/config/check/usual_values.h"
 #include "app/config/config_words.h"
+#include "stereo/nodes.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -105,6 +107,7 @@ void unusual_values(const CheckedRoom& room, const Tell& tell) {
 /// A number and another one that it is not below, where neither is 0.
 constexpr std::pair<const char*, const char*> kOrders[]{
     {"quality.longest_ms", "quality.frame_budget_ms"},
+    {"quality.still_budget_ms", "quality.frame_budget_ms"},
     {"comfort.vignette_full", "comfort.vignette_speed"},
     {"comfort.vignette_turn_full", "comfort.vignette_turn"},
     {"cluster.frame_timeout", "cluster.timeout"},
@@ -139,8 +142,57 @@ void left_off(const CheckedRoom& room, const Tell& tell) {
 
 void odd_samples(const CheckedRoom& room, const Tell& tell) {
     const auto samples = static_cast<unsigned>(room.config().rendering.samples);
-    if (samples != 0 && !std::has_single_bit(samples))
+    if (samples != 0 && (!std::has_single_bit(samples) || samples > 16))
         tell(room, 0, fmt::format("{}: drivers have 2, 4, 8 or 16 samples of a pixel", samples));
+}
+
+/// Shutters open with each picture of the display: an eye would see parts of the other's.
+void unpaced_shutters(const CheckedRoom& room, const Tell& tell) {
+    if (!room.config().rendering.vsync &&
+        std::ranges::any_of(room.installation().windows, [](const stereo::Window& window) {
+            return stereo::upright(window.stereo) == stereo::StereoMode::quadbuffer;
+        }))
+        tell(room, 0, "with \"quadbuffer\", pictures have to wait for the display");
+}
+
+/// A frame's time for drawing that is longer than the frame.
+void budgets_of_frames(const CheckedRoom& room, const Tell& tell) {
+    constexpr double kSlack = 1.05, kOfHeadset = 1000.0 / 72; // [ms]
+    const double budget = room.config().quality.frame_budget_ms,
+                 period = 1000.0 / double(room.config().rendering.frame_rate_limit);
+    if (room.has("rendering.frame_rate_limit") && budget > kSlack * period)
+        tell(room, 0,
+             fmt::format("{:g} ms for drawing, and {:.3g} ms for a frame of "
+                         "rendering.frame_rate_limit",
+                         budget, period));
+    else if (room.config().openxr.enabled && budget > kSlack * kOfHeadset)
+        tell(room, 0,
+             fmt::format("{:g} ms for drawing, and headsets show a frame every {:.3g} ms or sooner",
+                         budget, kOfHeadset));
+}
+
+void size_of_panel(const CheckedRoom& room, const Tell& tell) {
+    constexpr float kSmallest = 12, kLargest = 100; // degrees
+    const auto& panel = room.config().panel;
+    const float seen = glm::degrees(2 * std::atan(0.5f * panel.width / panel.distance));
+    if (seen < kSmallest || seen > kLargest)
+        tell(room, 0,
+             fmt::format("{:g} m wide and {:g} m away, it is {:.0f} degrees wide for the eyes: {}",
+                         panel.width, panel.distance, seen,
+                         seen < kSmallest ? "too small to be read" : "too large to be seen"));
+}
+
+void cluster_of_one(const CheckedRoom& room, const Tell& tell) {
+    if (room.has("cluster") && stereo::node_count(room.installation()) == 1)
+        tell(room, room.line_of("cluster"), "no window names a node, so there is one process");
+}
+
+/// What is said of data in a window, of a room.
+void filled_rooms(const CheckedRoom& room, const Tell& tell) {
+    if (room.config().placement.fill > 0 && !room.walls().empty())
+        tell(room, 0,
+             "it is for a window on a desktop, and has no effect on walls: size, height and "
+             "distance say where the data are");
 }
 
 /// A headset beside walls, which show the mirror of it.
@@ -196,6 +248,11 @@ constexpr Check kOfValues[]{
     {"*", Check::odd, orders},
     {"*", Check::odd, left_off},
     {"rendering.samples", Check::odd, odd_samples},
+    {"rendering.vsync", Check::odd, unpaced_shutters},
+    {"quality.frame_budget_ms", Check::odd, budgets_of_frames},
+    {"panel", Check::odd, size_of_panel},
+    {"cluster", Check::odd, cluster_of_one},
+    {"placement.fill", Check::odd, filled_rooms},
     {"openxr.enabled", Check::odd, headset_in_a_room},
     {"lighting", Check::odd, dark_lights},
     {"surfaces", Check::odd, unseen_surfaces},

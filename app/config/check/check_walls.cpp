@@ -21,27 +21,6 @@ using stereo::StereoMode;
 
 constexpr float kSeam = 0.010f;     ///< [m] widest gap between screens that is no problem
 constexpr float kNeighbors = 0.10f; ///< [m] corners this near are meant to coincide
-constexpr float kSame = 1e-3f;      ///< [m] corners this near are the same
-
-bool shows_one_eye(const Wall& wall) {
-    return wall.window().stereo == StereoMode::left || wall.window().stereo == StereoMode::right;
-}
-
-bool same_place(const Wall& a, const Wall& b) {
-    for (std::size_t i = 0; i < a.corners.size(); ++i)
-        if (glm::distance(a.corners[i], b.corners[i]) >= kSame)
-            return false;
-    return true;
-}
-
-/// Calls `visit` for each pair of walls, the one that comes later in the file second.
-template <class Visit>
-void each_pair(const CheckedRoom& room, Visit&& visit) {
-    const auto& walls = room.walls();
-    for (std::size_t i = 0; i < walls.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            visit(walls[j], walls[i]);
-}
 
 void overlapping_viewports(const CheckedRoom& room, const Tell& tell) {
     const auto& all = room.viewports();
@@ -93,12 +72,6 @@ float gap_between(const Wall& a, const Wall& b) {
             if (glm::distance(p, q) < kNeighbors)
                 widest = std::max(widest, glm::distance(p, q));
     return widest;
-}
-
-bool in_one_wall(const Wall& a, const Wall& b) {
-    constexpr float kParallel = 0.999f, kDeep = 0.1f; // cosine, and [m]
-    return glm::dot(a.normal, b.normal) > kParallel &&
-           std::abs(glm::dot(a.normal, b.corners[0] - a.corners[0])) < kDeep;
 }
 
 /// Monitors on a desk, turned towards the viewer: they have frames, and nobody sees a wall in them.
@@ -343,23 +316,31 @@ void one_eye_alone(const CheckedRoom& room, const Tell& tell) {
     }
 }
 
-/// Two projectors of a wall whose names say the eyes the other way round.
+/// Two projectors of a wall, or screens of a headset, whose names say the eyes the other way round.
 void exchanged_eyes(const CheckedRoom& room, const Tell& tell) {
-    const auto says = [](const Wall& wall, const char* word) {
-        return wall.window().name.find(word) != std::string::npos;
+    const auto says = [](const PlacedViewport& place, const char* word, const char* other) {
+        const std::string& name = place.window.name;
+        return name.find(word) != name.npos && name.find(other) == name.npos;
     };
-    each_pair(room, [&](const Wall& a, const Wall& b) {
-        if (!same_place(a, b) || a.window().stereo != stereo::inverted(b.window().stereo) ||
-            !shows_one_eye(a))
-            return;
-        const bool a_left = a.window().stereo == StereoMode::left;
-        const Wall &left = a_left ? a : b, &right = a_left ? b : a;
-        if (says(left, "right") && !says(left, "left") && says(right, "left") &&
-            !says(right, "right"))
-            tell(room, b.window().line.number,
+    const auto tell_if = [&](const PlacedViewport& left, const PlacedViewport& right) {
+        if (says(left, "right", "left") && says(right, "left", "right"))
+            tell(room, std::max(left.window.line.number, right.window.line.number),
                  fmt::format("{} shows the right eye and {} the left eye: their names say the "
                              "reverse",
-                             name_of(*right.place), name_of(*left.place)));
+                             name_of(right), name_of(left)));
+    };
+    for (const PlacedViewport& left : room.viewports())
+        for (const PlacedViewport& right : room.viewports())
+            if (left.window.stereo == StereoMode::left &&
+                right.window.stereo == StereoMode::right &&
+                left.viewport.viewer == right.viewport.viewer &&
+                left.viewport.screen.carried_by_head && right.viewport.screen.carried_by_head)
+                tell_if(left, right);
+    each_pair(room, [&](const Wall& a, const Wall& b) {
+        if (same_place(a, b) && shows_one_eye(a) &&
+            a.window().stereo == stereo::inverted(b.window().stereo))
+            a.window().stereo == StereoMode::left ? tell_if(*a.place, *b.place)
+                                                  : tell_if(*b.place, *a.place);
     });
 }
 

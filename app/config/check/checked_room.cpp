@@ -77,6 +77,37 @@ glm::vec2 pixel_size(const PlacedViewport& place) {
     return oblong(half) < oblong(whole) ? half : whole;
 }
 
+float floor_level(const std::vector<const Wall*>& walls) {
+    constexpr float kUnder = 0.3f; // [m] that the foot of a wall may be under the floor
+    float floor = std::numeric_limits<float>::max();
+    for (const Wall* wall : walls)
+        if (wall->is_floor())
+            floor = std::min(floor, wall->middle.y);
+    if (floor < std::numeric_limits<float>::max())
+        return floor;
+    const float foot = walls.empty() ? 0 : CheckedRoom::box_of(walls).low.y;
+    return foot >= -kUnder ? 0 : foot;
+}
+
+bool shows_one_eye(const Wall& wall) {
+    return wall.window().stereo == stereo::StereoMode::left ||
+           wall.window().stereo == stereo::StereoMode::right;
+}
+
+bool same_place(const Wall& a, const Wall& b) {
+    constexpr float kSame = 1e-3f; // [m]
+    for (std::size_t i = 0; i < a.corners.size(); ++i)
+        if (glm::distance(a.corners[i], b.corners[i]) >= kSame)
+            return false;
+    return true;
+}
+
+bool in_one_wall(const Wall& a, const Wall& b) {
+    constexpr float kParallel = 0.999f, kDeep = 0.1f; // cosine, and [m]
+    return glm::dot(a.normal, b.normal) > kParallel &&
+           std::abs(glm::dot(a.normal, b.corners[0] - a.corners[0])) < kDeep;
+}
+
 bool has_usual_corners(const stereo::Screen& screen) {
     const stereo::Screen usual;
     return screen.lower_left == usual.lower_left && screen.upper_left == usual.upper_left &&

@@ -73,6 +73,25 @@ class CheckedRoom {
     std::map<std::string, int, std::less<>> lines_;
 };
 
+/// Where the floor is [m]: the lowest floor that is a wall; or else the origin, if walls begin about
+/// there or above; or else the foot of the walls.
+float floor_level(const std::vector<const Wall*>& walls);
+
+bool shows_one_eye(const Wall& wall);
+/// Whether two walls have the same corners.
+bool same_place(const Wall& a, const Wall& b);
+/// Whether two screens lie in one plane and face the same way, as the displays of a tiled wall do.
+bool in_one_wall(const Wall& a, const Wall& b);
+
+/// Calls `visit` for each pair of walls, the one that comes later in the file second.
+template <class Visit>
+void each_pair(const CheckedRoom& room, Visit&& visit) {
+    const auto& walls = room.walls();
+    for (std::size_t i = 0; i < walls.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            visit(walls[j], walls[i]);
+}
+
 /// Whether a screen has the corners that it has where a file gives none.
 bool has_usual_corners(const stereo::Screen& screen);
 

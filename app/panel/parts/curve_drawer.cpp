@@ -55,6 +55,9 @@ struct Shown {
 
     const Choice& choice() const { return choices[chosen]; }
     bool is_mark() const { return choice().name == kMarkCurve; }
+    bool is_profile() const { return choice().name == kProfileCurve; }
+    /// One of the surfaces' measures.
+    bool is_measure() const { return !is_mark() && !is_profile(); }
 };
 
 std::vector<Choice> choices_of(const PanelModel& model) {
@@ -81,6 +84,10 @@ std::vector<Choice> choices_of(const PanelModel& model) {
         choices.push_back({std::string(kMarkCurve), 0,
                            model.curves.mark->subject.array->info().value_unit,
                            "value at the mark, and when it crosses the isovalues"});
+    const interaction::Ruler* const ruler = model.asked.rulers.chosen();
+    if (ruler && ruler->complete())
+        choices.push_back({std::string(kProfileCurve), 0, model.info.value_unit,
+                           "values along the picked ruler, and where they cross the isovalues"});
     return choices;
 }
 
@@ -131,6 +138,19 @@ std::string box_words(const index::VertexBox& box) {
                        box.last[1], box.first[2], box.last[2]);
 }
 
+/// `ruler 2, 12.5 m, t 2.9 s`
+std::string profile_words(const PanelModel& model) {
+    const interaction::Ruler* const ruler = model.asked.rulers.chosen();
+    if (!model.curves.profile)
+        return "reading ...";
+    const Profile& profile = *model.curves.profile;
+    if (profile.values.empty())
+        return "a ruler of no length";
+    return fmt::format("ruler {}, {}, {}", ruler ? ruler->name : std::string(),
+                       with_unit(profile.distances.back(), model.info.length_unit),
+                       time_of(model, profile.query.instant));
+}
+
 /// How far the curves are, or why they are not whole.
 void state_of(const PanelModel& model, const Shown& shown, float width) {
     std::size_t steps = 0, left = 0;
@@ -140,7 +160,7 @@ void state_of(const PanelModel& model, const Shown& shown, float width) {
     };
     if (shown.is_mark())
         count(*model.curves.mark);
-    else
+    else if (shown.is_measure())
         for (const Drawn& each : shown.surfaces)
             count(*each.curve);
     if (width <= 0)
@@ -150,6 +170,8 @@ void state_of(const PanelModel& model, const Shown& shown, float width) {
         fitted_text(model.curves.failure, width, color_of(Ink::warning));
     else if (left > 0)
         fitted_text(fmt::format("{} of {} steps", steps - left, steps), width, color_of(Ink::dim));
+    else if (shown.is_profile())
+        fitted_text(profile_words(model), width, color_of(Ink::dim));
     else if (shown.surfaces.empty() && !shown.is_mark())
         fitted_text(model.asked.clip_box.shown ? "no whole cell in the box" : "no surface is shown",
                     width, color_of(Ink::dim));
@@ -170,6 +192,8 @@ void header(const PanelModel& model, const Shown& shown, Commands& commands) {
         for (const Drawn& each : shown.surfaces)
             if (!curve || (each.picked && choice.name != kMarkCurve))
                 curve = each.curve;
+        if (choice.name == kProfileCurve)
+            curve = nullptr;
         notes.push_back(curve ? number_text(at_step(*curve, choice.number, now), choice.unit)
                               : choice.unit);
     }
@@ -194,7 +218,9 @@ void header(const PanelModel& model, const Shown& shown, Commands& commands) {
     ImGui::SameLine(end - buttons);
     if (saves) {
         if (icon_button("save curves", Icon::send,
-                        "save all measures of all steps as a table (CSV)", false, button))
+                        shown.is_profile() ? "save the values along the ruler as a table (CSV)"
+                                           : "save all measures of all steps as a table (CSV)",
+                        false, button))
             model.curves.save();
         ImGui::SameLine();
     }
@@ -270,6 +296,58 @@ void plot(const PanelModel& model, const Shown& shown, const ImVec2& size, Comma
         go_to(model, index::Instant(*use.pointed), commands);
 }
 
+/// The values along the ruler; a press marks the place.
+void profile_plot(const PanelModel& model, const Shown& shown, const ImVec2& size,
+                  Commands& commands) {
+    const Profile& profile = *model.curves.profile;
+    PlottedCurves curves{.times = profile.distances,
+                         .time_unit = model.info.length_unit,
+                         .unit = shown.choice().unit,
+                         .lines = {{profile.values, packed(Ink::text)}},
+                         .levels = {},
+                         .logarithmic = model.asked.curves.logarithmic};
+    for (const interaction::Isosurface& each : model.asked.isosurfaces)
+        if (each.opacity > 0)
+            curves.levels.push_back({each.isovalue, line_color(each)});
+    ImGui::PushID("profile"); // its zoom is its own
+    const PlotUse use = curve_plot(curves, size);
+    ImGui::PopID();
+    if (!use.pointed)
+        return;
+    const double value = profile.values[*use.pointed];
+    ImGui::BeginTooltip();
+    text(with_unit(profile.distances[*use.pointed], model.info.length_unit));
+    text(number_text(value, shown.choice().unit));
+    ImGui::EndTooltip();
+    const interaction::MarkedPoint point{
+        .position = profile.at[*use.pointed], .instant = profile.query.instant, .value = value};
+    if (use.pressed && std::isfinite(value) && model.asked.mark.point != point)
+        commands.mark = interaction::Mark{point};
+}
+
+/// Where the values along the ruler cross the isovalues.
+void profile_crossings(const PanelModel& model, const ImVec2& size) {
+    const Profile& profile = *model.curves.profile;
+    ImGui::BeginChild("crossings", size);
+    for (const interaction::Isosurface& each : model.asked.isosurfaces) {
+        if (each.opacity <= 0)
+            continue;
+        const std::string words = with_unit(each.isovalue, model.info.value_unit);
+        const std::vector<Crossing> all = crossings_of(profile.values, each.isovalue);
+        swatch(line_color(each));
+        fitted_text((all.empty() ? "never crosses " : "crosses ") + words,
+                    ImGui::GetContentRegionAvail().x, color_of(Ink::text));
+        for (const Crossing& at : all) {
+            const double step = profile.distances[1] - profile.distances[0];
+            text(fmt::format(
+                "   at {} {}",
+                with_unit(profile.distances[at.step] + at.share * step, model.info.length_unit),
+                at.rises ? "rising" : "falling"));
+        }
+    }
+    ImGui::EndChild();
+}
+
 /// The numbers of the present step: a line for each measure, a column for each surface.
 void table(const PanelModel& model, const Shown& shown, const ImVec2& size, Commands& commands) {
     constexpr float kName = 104.0f;
@@ -303,6 +381,10 @@ void table(const PanelModel& model, const Shown& shown, const ImVec2& size, Comm
         ImGui::SameLine(0.0f, 0.0f);
         text(words_of_measure(choice.name));
         const bool of_mark = choice.name == kMarkCurve;
+        if (choice.name == kProfileCurve) {
+            ImGui::PopID();
+            continue;
+        }
         for (std::size_t i = 0; i < columns; ++i) {
             ImGui::TableNextColumn();
             if (of_mark && i > 0)
@@ -353,6 +435,8 @@ void crossings(const PanelModel& model, const Shown& shown, const ImVec2& size,
 std::string words_of_measure(std::string_view name) {
     if (name == kMarkCurve)
         return "value at the mark";
+    if (name == kProfileCurve)
+        return "values along the ruler";
     std::string words(name);
     std::ranges::replace(words, '-', ' ');
     return words;
@@ -370,11 +454,20 @@ void curve_drawer(const PanelModel& model, Commands& commands) {
     const float beside =
         room.x >= kWithTable ? std::min(110.0f + 96.0f * columns, 0.45f * room.x) : 0.0f;
     const ImVec2 corner = ImGui::GetCursorPos();
-    plot(model, shown, {room.x - (beside > 0 ? beside + gap : 0), room.y}, commands);
+    const ImVec2 size(room.x - (beside > 0 ? beside + gap : 0), room.y);
+    const bool plotted = model.curves.profile && !model.curves.profile->values.empty();
+    if (shown.is_profile() && !plotted)
+        return;
+    if (shown.is_profile())
+        profile_plot(model, shown, size, commands);
+    else
+        plot(model, shown, size, commands);
     if (beside == 0)
         return;
     ImGui::SetCursorPos({corner.x + room.x - beside, corner.y});
-    if (shown.is_mark())
+    if (shown.is_profile())
+        profile_crossings(model, {beside, room.y});
+    else if (shown.is_mark())
         crossings(model, shown, {beside, room.y}, commands);
     else
         table(model, shown, {beside, room.y}, commands);

@@ -310,15 +310,16 @@ PlotUse curve_plot(const PlottedCurves& curves, const ImVec2& size) {
     };
     if (use.pointed)
         upright(curves.times[*use.pointed], packed(Ink::dim), 1.0f);
-    upright(index::time_at(curves.times, curves.now), packed(Ink::accent), 2.0f);
+    if (curves.now)
+        upright(index::time_at(curves.times, *curves.now), packed(Ink::accent), 2.0f);
     for (const bool picked : {false, true})
         for (const PlottedLine& line : curves.lines)
             if (line.picked == picked)
                 line_on(frame, curves, line);
     for (const PlottedLevel& level : curves.levels)
         crossings_on(frame, curves, level);
-    if (!curves.now.between())
-        dots_at(frame, curves, curves.now.step);
+    if (curves.now && !curves.now->between())
+        dots_at(frame, curves, curves.now->step);
     if (use.pointed)
         dots_at(frame, curves, *use.pointed);
     list.PopClipRect();

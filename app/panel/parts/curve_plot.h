@@ -1,4 +1,4 @@
-// A plot of curves over time: axes with round numbers, lines, and the present time.
+// A plot of curves over time or over a way: axes with round numbers, lines, and the present time.
 #pragma once
 
 #include "index/volume/instant.h"
@@ -25,12 +25,12 @@ struct PlottedLevel {
     ImU32 color;
 };
 struct PlottedCurves {
-    std::span<const double> times; ///< times of the steps, increasing; not empty
+    std::span<const double> times; ///< times of the steps, or a way, increasing; not empty
     std::string time_unit, unit;
     std::vector<PlottedLine> lines;
     std::vector<PlottedLevel> levels;
-    bool logarithmic = false; ///< numbers above 0 alone are plotted
-    index::Instant now;
+    bool logarithmic = false;            ///< numbers above 0 alone are plotted
+    std::optional<index::Instant> now{}; ///< none over a way
 };
 
 /// What the mouse does with the plot.

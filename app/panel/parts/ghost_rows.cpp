@@ -38,7 +38,7 @@ void ghost_button(const PanelModel& model, interaction::Commands& commands) {
     if (model.info.steps() < 2)
         return;
     ImGui::SameLine();
-    if (icon_button("ghosts", IconPath("O 5 16 2.6 O 11 13 4 D 18 9 5"),
+    if (icon_button("ghosts", IconPath(kGhostIcon),
                     "ghosts: surfaces of earlier and later steps (Ctrl + Shift + G)",
                     model.asked.ghosts.shown(), kSide))
         commands.ghosts = interaction::ghosts_on_or_off(model.asked.ghosts);

@@ -38,6 +38,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Icon::count)> kPaths{
     "M 17 3 L 20 6 L 17 9 M 20 6 L 6 6 L 4 8 L 4 12 M 7 21 L 4 18 L 7 15 M 4 18 L 18 18 " // loop
     "L 20 16 L 20 12",
     "M 4 7 L 12 3 L 20 7 L 20 17 L 12 21 L 4 17 Z M 4 7 L 12 11 L 20 7 M 12 11 L 12 21", // data
+    "D 4 6 1.8 M 9 6 L 21 6 D 4 12 1.8 M 9 12 L 21 12 D 4 18 1.8 M 9 18 L 21 18",        // objects
     "M 2 16 L 7 8 L 12 6 L 17 8 L 22 16 M 6 19 L 9 13 L 12 11.5 L 15 13 L 18 19",        // surfaces
     "M 12 3 L 17 10 L 18 14 L 16 19 L 12 21 L 8 19 L 6 14 L 7 10 Z M 12 21 L 12 3",      // color
     "O 12 12 4.5 M 12 1.5 L 12 4.5 M 12 19.5 L 12 22.5 M 1.5 12 L 4.5 12 M 19.5 12 "     // view

@@ -30,6 +30,7 @@ enum class Icon : std::uint8_t {
     last,
     loop,
     data,
+    objects,
     surfaces,
     color,
     view,

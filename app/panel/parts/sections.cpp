@@ -1,4 +1,4 @@
-// The panel's sections: data, surfaces, color and view.
+// The panel's sections: data, objects, surfaces, color and view.
 #include "app/panel/parts/sections.h"
 #include "app/panel/parts/session_field.h"
 
@@ -7,8 +7,8 @@
 #include "app/panel/panel_statistics.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/color_section.h"
-#include "app/panel/parts/model_lines.h"
 #include "app/panel/parts/named_list.h"
+#include "app/panel/parts/objects_section.h"
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/surfaces_section.h"
 #include "app/panel/parts/theme.h"
@@ -55,6 +55,17 @@ void array_row(const PanelModel& model, PanelPages& pages, Commands& commands) {
         interaction::merge(commands, model.arrays.way_to(*chosen));
 }
 
+/// Opens a model; those that are open stand among the objects.
+void model_row(PanelPages& pages) {
+    if (!pages.offers_files)
+        return;
+    row("models");
+    if (ImGui::Button("open ...##model", {ImGui::CalcItemWidth(), 0.0f}))
+        pages.files = true;
+    tip("triangles of a file beside the surfaces, in the data's coordinates: STL, PLY, OBJ, VTP, "
+        "glTF; or drop the file here. The list of objects has those that are open");
+}
+
 void data_section(const PanelModel& model, PanelPages& pages, Commands& commands) {
     const index::SeriesInfo& info = model.info;
     array_row(model, pages, commands);
@@ -67,7 +78,7 @@ void data_section(const PanelModel& model, PanelPages& pages, Commands& commands
     text_row("size", fmt::format("{:.5g} x {:.5g} x {:.5g}{}", size.x, size.y, size.z,
                                  with_space(info.length_unit)));
     text_row("grid", grid_words(info));
-    model_lines(model, pages, commands);
+    model_row(pages);
     if (model.sessions.empty())
         return;
     row("sessions");
@@ -288,6 +299,7 @@ std::vector<std::string> offered_stereo(const PanelModel& model) {
 const std::array<Section, kSections>& sections() {
     static constexpr std::array<Section, kSections> kAll{
         {{"Data", Icon::data, data_section},
+         {"Objects", Icon::objects, alone<objects_section>},
          {"Surfaces", Icon::surfaces, surfaces_section},
          {"Color", Icon::color, alone<color_section>},
          {"View", Icon::view, view_section}}};
@@ -320,7 +332,7 @@ void section_column(const PanelModel& model, PanelPages& pages, Commands& comman
 
 void section_pages(const PanelModel& model, PanelPages& pages, Commands& commands,
                    std::optional<std::size_t>& pointed) {
-    constexpr int kFirst = 1; // the surfaces
+    constexpr int kFirst = 2; // the surfaces
     int* const page = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("page"), kFirst);
     if (pointed && *pointed < kSections)
         *page = static_cast<int>(*std::exchange(pointed, {}));

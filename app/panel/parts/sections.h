@@ -1,4 +1,4 @@
-// The panel's sections: data, surfaces, color and view.
+// The panel's sections: data, objects, surfaces, color and view.
 #pragma once
 
 #include "app/panel/panel_model.h"
@@ -22,7 +22,7 @@ struct Section {
     Icon icon;
     void (*lay_out)(const PanelModel& model, PanelPages& pages, interaction::Commands& commands);
 };
-inline constexpr std::size_t kSections = 4;
+inline constexpr std::size_t kSections = 5;
 const std::array<Section, kSections>& sections();
 
 /// All of them in the current window, each under a line that folds it.

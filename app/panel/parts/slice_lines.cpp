@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -48,11 +49,10 @@ void slice_buttons(const PanelModel& model, Slices& slices) {
 
 } // namespace
 
-interaction::Commands flat_view(const PanelModel& model) {
+interaction::Commands flat_view(const PanelModel& model, Slices slices) {
     interaction::Commands commands;
     const interaction::Similarity& room = model.asked.room_from_physical;
-    commands.slices = model.asked.slices;
-    const interaction::Plane& plane = commands.slices->planes.at(commands.slices->picked);
+    const interaction::Plane plane = slices.planes.at(slices.picked);
     const glm::dvec3 viewer = in_physical(room, glm::dvec3(model.head.position));
     const bool from_front = glm::dot(viewer - plane.point, plane.normal) >= 0;
     constexpr double kUpright = 0.9; // cosine to z beyond which y points up
@@ -61,7 +61,8 @@ interaction::Commands flat_view(const PanelModel& model) {
     const interaction::AxisView view{"flat", from_front ? plane.normal : -plane.normal, up};
     commands.room_from_physical =
         seen_from(view, room, physical_center(model.info.grid), model.head);
-    commands.slices->alone = true;
+    slices.alone = true;
+    commands.slices = std::move(slices);
     if (model.place != PanelPlace::in_room)
         commands.orthographic = true;
     return commands;
@@ -95,7 +96,7 @@ void slice_lines(const PanelModel& model, interaction::Commands& commands) {
         tip("hide the surfaces (Ctrl + H)");
         ImGui::SameLine(0.0f, 14.0f);
         if (ImGui::Button("flat"))
-            merge(commands, flat_view(model));
+            merge(commands, flat_view(model, slices));
         tip("look straight at the slice, alone and in parallel projection");
     }
     if (slices.picked < slices.planes.size()) {

@@ -3,6 +3,7 @@
 
 #include "app/frame/step_survey.h"
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/eye_memory.h"
 #include "app/panel/parts/ghost_rows.h"
 #include "app/panel/parts/histogram.h"
 #include "app/panel/parts/icons.h"
@@ -65,14 +66,14 @@ struct ListChange {
 };
 
 /// Hides a surface, and shows it again as opaque as it was.
-void eye_button(Isosurface& surface) {
-    float* const before = ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("before"), 1.0f);
+void eye_button(std::uint32_t i, Isosurface& surface) {
+    float& before = opacity_before(*ImGui::GetStateStorage(), "surface", i);
     const bool seen = surface.opacity > 0.0f;
     if (seen)
-        *before = surface.opacity;
+        before = surface.opacity;
     if (icon_button("eye", seen ? Icon::eye : Icon::eye_shut,
                     seen ? "hide this surface" : "show this surface", false, kSmallIcon))
-        surface.opacity = seen ? 0.0f : *before;
+        surface.opacity = seen ? 0.0f : before;
 }
 
 void menu_of_surface(const PanelModel& model, std::uint32_t i, ListChange& change) {
@@ -126,7 +127,7 @@ void surface_row(const PanelModel& model, std::uint32_t i, Isosurface& surface,
                       ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoTooltip);
     tip("its color");
     ImGui::SameLine();
-    eye_button(surface);
+    eye_button(i, surface);
     ImGui::SameLine();
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float width = ImGui::GetContentRegionAvail().x - kOpacityField - kSmallIcon - 2 * gap;

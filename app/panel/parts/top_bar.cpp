@@ -11,6 +11,8 @@
 #include "app/panel/parts/slice_lines.h"
 #include "app/panel/parts/theme.h"
 #include "app/panel/parts/written_pictures.h"
+#include "interaction/controls/action_table.h"
+#include "interaction/tools/ruler_tool.h"
 #include "interaction/tools/tool_table.h"
 
 #include <fmt/format.h>
@@ -168,21 +170,37 @@ void top_bar(const PanelModel& model, PanelPages& pages, Commands& commands) {
 
 namespace {
 
-/// What the panel says of what a tool has made, and its removal.
-void made_line(const interaction::ToolRow& tool, const PanelModel& model, Commands& commands) {
+/// The picked ruler and what it measures, what the next one measures, and the values along it.
+void ruler_lines(const PanelModel& model, Commands& commands) {
+    const interaction::Rulers& rulers = model.asked.rulers;
     ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(color_of(Ink::dim), "%s", tool.line(model.asked).c_str());
-    if (!tool.made(model.asked))
-        return;
-    for (const interaction::ToolLabel& label : tool.draw(model.asked, model.data).labels) {
+    ImGui::TextColored(color_of(Ink::dim), "%s", interaction::ruler_line(model.asked).c_str());
+    const interaction::Ruler* const ruler = rulers.chosen();
+    if (ruler && ruler->complete()) {
         ImGui::SameLine();
-        text(label.text);
+        text((rulers.list.size() > 1 ? ruler->name + ": " : std::string()) +
+             interaction::measured_text(*ruler, model.data.unit));
+    }
+    ImGui::SameLine(0.0f, 14.0f);
+    bool angle = rulers.angle;
+    if (tick_field("##angle", angle, "angle"))
+        commands.rulers = with_angle(rulers, angle);
+    tip("the next ruler measures the angle at the second of three places (Ctrl + Shift + R)");
+    if (!ruler)
+        return;
+    if (ruler->complete()) {
+        ImGui::SameLine(0.0f, 14.0f);
+        if (ImGui::Button("values"))
+            commands.curves = interaction::profile_on_or_off(model.asked.curves);
+        tip("the values along the ruler as a curve (Ctrl + Shift + D)");
     }
     ImGui::SameLine();
-    if (icon_button(fmt::format("no {}", tool.makes).c_str(), Icon::remove,
-                    fmt::format("remove the {} (Delete)", tool.makes).c_str(), false,
-                    ImGui::GetFrameHeight()))
-        tool.remove(commands);
+    if (icon_button("no ruler", Icon::remove,
+                    rulers.list.size() > 1 ? "remove this ruler (Delete); the others are in the "
+                                             "list of objects"
+                                           : "remove the ruler (Delete)",
+                    false, ImGui::GetFrameHeight()))
+        commands.rulers = without_ruler(rulers, rulers.picked);
 }
 
 /// Whether the strip shows a tool: what it has made is there, or a tool with a line is held.
@@ -196,7 +214,7 @@ bool has_line(const interaction::ToolRow& tool, const PanelModel& model) {
 } // namespace
 
 bool has_tool_strip(const PanelModel& model) {
-    return has_marks(model) ||
+    return model.asked.mark.point ||
            std::ranges::any_of(interaction::tool_table(), [&](const interaction::ToolRow& tool) {
                return has_line(tool, model);
            });
@@ -210,10 +228,10 @@ void tool_strip(const PanelModel& model, float width, Commands& commands) {
             clip_lines(model, commands);
         else if (tool.kind == ToolKind::slice)
             slice_lines(model, commands);
-        else if (tool.line)
-            made_line(tool, model, commands);
+        else if (tool.kind == ToolKind::ruler)
+            ruler_lines(model, commands);
     }
-    if (has_marks(model))
+    if (model.asked.mark.point)
         mark_lines(model, width, commands);
 }
 

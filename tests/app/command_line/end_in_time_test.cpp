@@ -7,11 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <string>
 #include <thread>
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -30,6 +33,17 @@ using namespace std::chrono_literals;
 void begin_to_watch() {
     EndInTime::allow("lab");
     EndInTime::watch();
+}
+
+void make_stderr_a_full_pipe() {
+    std::array<int, 2> ends{};
+    const std::string page(4096, 'x');
+    if (pipe2(ends.data(), O_NONBLOCK) != 0)
+        _exit(1);
+    while (write(ends[1], page.data(), page.size()) > 0)
+        continue;
+    fcntl(ends[1], F_SETFL, 0);
+    dup2(ends[1], STDERR_FILENO);
 }
 
 class EndInTimeTest : public testing::Test {
@@ -58,6 +72,17 @@ TEST_F(EndInTimeTest, EndsWhatDoesNotEndByItselfAndRemovesItsTemporaryFiles) {
         testing::ExitedWithCode(128 + SIGTERM), "lab: canceled");
     EXPECT_LT(seconds(), 5) << "on a busy machine";
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST_F(EndInTimeTest, EndsWhereNobodyReadsWhatItSays) {
+    EXPECT_EXIT(
+        {
+            begin_to_watch();
+            make_stderr_a_full_pipe();
+            EndInTime::signaled(SIGTERM);
+            hang_for_ever();
+        },
+        testing::ExitedWithCode(128 + SIGTERM), "");
 }
 
 TEST_F(EndInTimeTest, SavesWhileItDrawsAndNotWhileWhatIsSavedMayChange) {

@@ -122,7 +122,9 @@ TEST_F(ReproduceTest, EveryFootprintAndStereoModeIsTheSame) {
 TEST_F(ReproduceTest, WhatToolsHaveMadeIsTheSame) {
     interaction::Commands made;
     made.clip = interaction::ClipPlane{true, {16, 16, 16}, {0, 0, 1}};
-    made.ruler = interaction::Ruler{{{4, 16, 16}, {28, 16, 16}}};
+    made.rulers = interaction::Rulers{
+        .list = {{.name = "1", .places = {{4, 16, 16}, {28, 16, 16}}},
+                 {.name = "2", .places = {{4, 4, 16}, {4, 28, 16}, {28, 28, 16}}, .angle = true}}};
     made.mark = interaction::Mark{interaction::MarkedPoint{{10, 12, 16}, {}, 8.0}};
     made.isosurfaces = {{8.0, {1, 0.5f, 0.2f}, 1.0f}, {12.0, {0.2f, 0.5f, 1}, 0.4f}};
     made.coloring = interaction::Coloring{interaction::ColorBy::first_crossing, "lagoon", {}};

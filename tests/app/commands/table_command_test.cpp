@@ -38,8 +38,8 @@ TEST_F(TableCommand, MarksOfARecordingAreRowsInTheOrderOfTime) {
     EXPECT_EQ(table_of({"walk.jsonl"}), "what,seconds,step,fraction,name,x,y,z,value\n"
                                         "mark,1.5,3,0,,1.0,2.5,-3.0,9.25\n"
                                         "mark,1.75,3,16384,,1.0,2.5,-3.0,9.5\n"
-                                        "ruler,2.0,3,0,,0.0,0.0,0.0,\n"
-                                        "ruler,2.0,3,0,,3.0,4.0,0.0,5.0\n"
+                                        "ruler,2.0,3,0,1,0.0,0.0,0.0,\n"
+                                        "ruler,2.0,3,0,1,3.0,4.0,0.0,5.0\n"
                                         "stamp,2.0,3,0,\"here, \"\"now\"\"\",,,,\n"
                                         "bookmark,3.0,7,32768,late,,,,\n"
                                         "bookmark,4.0,1,0,early,,,,\n");
@@ -47,6 +47,22 @@ TEST_F(TableCommand, MarksOfARecordingAreRowsInTheOrderOfTime) {
     ASSERT_EQ(rows.size(), 7u);
     EXPECT_EQ(rows[3].at("value"), 5.0);
     EXPECT_EQ(rows[4].at("name"), "here, \"now\"");
+}
+
+TEST_F(TableCommand, EachRulerOfAListHasItsRowsOnceAndAnAngleItsDegrees) {
+    folder.write(
+        "walk.jsonl",
+        std::string(kWalk) +
+            R"({"t":5,"commands":{"rulers":{"picked":2,"angle":true,"list":[)"
+            R"({"name":"1","places":[[0,0,0],[3,4,0]],"angle":false,"shown":true},)"
+            R"({"name":"bend","places":[[2,0,0],[0,0,0],[0,0,5]],"angle":true,"shown":true},)"
+            R"({"name":"3","places":[[2,0,0]],"angle":true,"shown":true}]}}})"
+            "\n");
+    EXPECT_THAT(table_of({"walk.jsonl"}),
+                testing::EndsWith("early,,,,\n"
+                                  "ruler,5.0,3,0,bend,2.0,0.0,0.0,\n"
+                                  "ruler,5.0,3,0,bend,0.0,0.0,0.0,\n"
+                                  "ruler,5.0,3,0,bend,0.0,0.0,5.0,90.0\n"));
 }
 
 TEST_F(TableCommand, ARecordingIsKnownHoweverLongItsConfigurationIs) {

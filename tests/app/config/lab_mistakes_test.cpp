@@ -309,6 +309,81 @@ std::vector<Mistake> mistakes_of_windows() {
     };
 }
 
+/// Displays of 1 x 0.5625 m beside one another, each with more lines of its window.
+std::string row_of(const std::vector<std::string>& windows, double share = 1) {
+    std::vector<Wall> walls;
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+        const double x = -1.5 + double(i) * share;
+        walls.push_back({fmt::format("t{}", i),
+                         {x, 0.8, -2},
+                         {x, 1.3625, -2},
+                         {x + 1, 1.3625, -2},
+                         kQuad + "\n" + windows[i],
+                         "",
+                         1.0 / 1920});
+    }
+    return room_of({0, 1.7, 0}, walls);
+}
+/// Two displays, one above the other, in one window.
+std::string column_of(double position_of_upper, double position_of_lower) {
+    const auto viewport = [](double position, double low) {
+        return fmt::format("[[windows.viewports]]\nposition = [0, {}]\nsize = [1, 0.5]\n"
+                           "[windows.viewports.projection]\nlower_left = [-1, {}, -2]\n"
+                           "upper_left = [-1, {}, -2]\nupper_right = [1, {}, -2]\n",
+                           position, low, low + 1.125, low + 1.125);
+    };
+    return "version = 1\n[[windows]]\nsize = [1920, 2160]\n" + viewport(position_of_upper, 1.625) +
+           viewport(position_of_lower, 0.5);
+}
+/// A headset with a window for each eye, whose screens reach farther out on the side of the eye.
+std::string two_eyes(const std::string& left, const std::string& right, double outward = 0.2) {
+    const auto eye = [](const std::string& name, const std::string& mode, double x) {
+        return Wall{name,
+                    {x - 1, -1, -1},
+                    {x - 1, 1, -1},
+                    {x + 1, 1, -1},
+                    "stereo = \"" + mode + "\"\n",
+                    "carried_by = \"head\"\n"};
+    };
+    return room_of({0, 1.6, 0}, {eye(left, "left", -outward), eye(right, "right", outward)});
+}
+/// The four walls, each on a machine of its own.
+std::string on_machines(const std::vector<int>& monitors) {
+    std::vector<Wall> walls = box(3, 3, 3, "front left right floor");
+    for (std::size_t i = 0; i < walls.size(); ++i)
+        walls[i].window +=
+            fmt::format("fullscreen = true\nnode = {}\nmonitor = {}\n", i + 1, monitors[i]);
+    return room_of({0, 1.7, 0}, walls) + kTracker;
+}
+
+std::vector<Mistake> mistakes_of_displays() {
+    std::vector<Wall> crossing = box(3, 3, 3, "front left right");
+    for (auto* corner :
+         {&crossing[0].lower_left, &crossing[0].upper_left, &crossing[0].upper_right})
+        (*corner)[2] = -0.75;
+    const double turn = 3 * std::sin(0.1), along = 3 * std::cos(0.1) - 1.5;
+    return {
+        {"windows.viewports.position", "counted from the top", column_of(0, 0.5)},
+        {"windows.position", "displays in reverse order",
+         row_of({"position = [3840, 0]\n", "position = [1920, 0]\n", "position = [0, 0]\n"})},
+        {"windows.position", "of a window that covers its monitor",
+         with(powerwall(), kQuad, kQuad + "\nfullscreen = true\nposition = [1920, 0]")},
+        {"windows.size", "one display with half the pixels",
+         with(row_of({"", "", ""}), "[1920, 1080]", "[960, 540]")},
+        {kProjection, "a display over most of its neighbor", row_of({"", ""}, 0.2)},
+        {kProjection, "a front wall between the side walls", room_of({0, 1.7, 0}, crossing)},
+        {kProjection, "a side wall turned by 6 degrees",
+         cave_with("left", {-1.5 - turn, 0, along}, {-1.5 - turn, 3, along}, {-1.5, 3, -1.5})},
+        {"windows.monitor", "counted through all machines", on_machines({0, 1, 2, 3})},
+        {"windows.viewports.name", "one name twice",
+         with_all(column_of(0.5, 0), "[[windows.viewports]]",
+                  "[[windows.viewports]]\nname = \"half\"")},
+        {kProjection, "the screens of a headset exchanged", two_eyes("a", "b", -0.2)},
+        {"windows.stereo", "a headset's eyes, by name", two_eyes("eye right", "eye left")},
+        {"windows.name", "two windows of one name", with(cave(), "\"right\"", "\"left\"")},
+    };
+}
+
 std::vector<Mistake> mistakes_of_viewers() {
     std::vector<Mistake> all;
     for (const auto* place :
@@ -330,6 +405,7 @@ std::vector<Mistake> mistakes_of_viewers() {
         {"left_eye", "centimeters", two("[-3.1, 0, 0]", "[3.1, 0, 0]")},
         {"left_eye", "far from the head", two("[-0.03, 0.3, 0]", "[0.03, 0.3, 0]")},
         {"viewer.position", "walls of 30 cm", moved(cave(), times(0.1))},
+        {"viewer.position", "half sizes for sizes", moved(cave(), times(0.5))},
         {"viewer.position", "all in feet",
          with(moved(powerwall(), times(1 / 0.3048)), words({0, 1.7, 0}), "[0, 5.58, 0]")},
         {"viewer.position", "on the floor of a powerwall",
@@ -346,8 +422,13 @@ std::vector<Mistake> mistakes_of_viewers() {
         {"viewers.head", "a hand", eyes("head = \"wand\"")},
         {"rendering.near", "behind the walls", cave("[rendering]\nnear = 5\n")},
         {"rendering.near", "out of reach", cave("[rendering]\nnear = 1\n")},
+        {"rendering.near", "most of the way to a monitor",
+         room_of({0, 1.2, 0.2},
+                 {{"desk", {-0.3, 0.8, -0.4}, {-0.3, 1.1375, -0.4}, {0.3, 1.1375, -0.4}}}) +
+             "[rendering]\nnear = 0.4\n"},
         {"rendering.near", "beyond far", cave("[rendering]\nnear = 3\nfar = 2\n")},
         {"rendering.far", "before the walls", cave("[rendering]\nfar = 1\n")},
+        {"rendering.far", "before the floor", cave("[rendering]\nfar = 1.6\n")},
         {"rendering.far", "before the data",
          cave("[rendering]\nfar = 3\n[placement]\nsize = 4\ndistance = 10\n")},
         {"near_fade", "beyond reach", cave("[comfort]\nnear_fade = [2, 3]\n")},
@@ -373,7 +454,8 @@ std::vector<Mistake> mistakes_of_trackers() {
             all.push_back({key, line, of(line)});
     };
     each("dtrack.position", of_tracker,
-         {"position = [0, 250, 0]", "position = [0, 25, 0]", "position = [0, 900, 0]"});
+         {"position = [0, 250, 0]", "position = [0, 25, 0]", "position = [0, 900, 0]",
+          "position = [0, -2.5, 0]"});
     each("dtrack.scale", of_tracker,
          {"scale = 1000", "scale = 0.001", "scale = 0.01", "scale = 0.3048", "scale = 3.28"});
     each("dtrack.orientation", of_tracker,
@@ -381,7 +463,9 @@ std::vector<Mistake> mistakes_of_trackers() {
           "orientation = [0, -9, 0]", "orientation = [0, 180, 0]"});
     each("dtrack.address", of_tracker,
          {"address = \"224.0.1.5\"", "address = \"192.168.0.255\"", "from = \"192.168.0.10\"",
-          "address = \"192.168.0.10\"\nfrom = \"192.168.0.10\""});
+          "address = \"192.168.0.10\"\nfrom = \"192.168.0.10\"",
+          "address = \"192.168.0.20\"\nfrom = \"0.0.0.0\"",
+          "address = \"192.168.0.20\"\nfrom = \"192.168.0.255\""});
     each("port", [](const auto& line) { return with(cave(), "port = 5000", line); },
          {"port = 500", "port = 50105", "port = 3883", "port = 70000"});
     each("osc.scale",
@@ -400,7 +484,8 @@ std::vector<Mistake> mistakes_of_trackers() {
     each("valuators", of_wand, {"valuators = [0, 0]", "valuators = [8]"});
     each("valuator_factors", of_wand,
          {"valuators = [0, 1]\nvaluator_factors = [1, 0]",
-          "valuators = [0, 1]\nvaluator_factors = [100, 100]"});
+          "valuators = [0, 1]\nvaluator_factors = [100, 100]",
+          "valuators = [0, 1]\nvaluator_factors = [0.01, 0.01]"});
     const std::string head = "name = \"head\"", wand = "name = \"wand\"";
     for (const auto* name : {"Wand", "hand", "flystick", "stylus"})
         all.push_back(
@@ -410,15 +495,27 @@ std::vector<Mistake> mistakes_of_trackers() {
             {"dtrack.devices.name", name, with(cave(), head, fmt::format("name = \"{}\"", name))});
     const std::string osc = "[[osc.devices]]\nname = \"wand\"\n";
     const std::string vrpn = "[vrpn]\n[[vrpn.devices]]\nname = \"wand2\"\n";
+    const std::string of_box = "button = \"Button0@pc\"\n";
     const std::vector<Mistake> others{
         {"dtrack.devices", "one body twice", with(cave(), "flystick = 0", "body = 0")},
         {"dtrack.devices.marker", "a head without orientation",
          with(cave(), "body = 0", "marker = 1")},
+        {"dtrack.devices", "a marker in the hand", with(cave(), "flystick = 0", "marker = 1")},
+        {"dtrack.devices", "head and hand exchanged",
+         with(with(with(cave(), head, "name = \"x\""), wand, head), "name = \"x\"", wand)},
+        {"dtrack.devices", "numbers from 1",
+         with(with(cave(), "body = 0", "body = 1"), "flystick = 0", "flystick = 1")},
+        {"vrpn.devices.button", "one box for both hands",
+         cave("[vrpn]\n[[vrpn.devices]]\nname = \"wand\"\n" + of_box +
+              "[[vrpn.devices]]\nname = \"wand2\"\n" + of_box)},
+        {"vrpn.devices.tracker", "the buttons' name", cave(vrpn + "tracker = \"Button0@pc\"\n")},
         {"osc.port", "a port twice",
          cave("[osc]\nport = 5000\n[[osc.devices]]\nname = \"wand2\"\n")},
         {"osc.devices.name", "two poses", cave("[osc]\n" + osc)},
         {"osc.devices.source", "an address for a name",
          cave("[osc]\n" + osc + "source = \"/isochron/wand\"\n")},
+        {"osc.devices.source", "a device in the prefix",
+         cave("[osc]\nprefix = \"/isochron/wand\"\n" + osc)},
         {"dtrack.devices.name", "the other hand alone", with(cave(), wand, "name = \"wand2\"")},
         {"dtrack.devices.name", "a headset, too", cave("[openxr]\nenabled = true\n")},
         {"prediction_limit_ms", "less than is to be predicted",
@@ -457,6 +554,17 @@ std::vector<Mistake> mistakes_of_values() {
     add("cluster.frame_timeout", "[cluster]\ntimeout = 60\nframe_timeout = 10");
     add("rendering.picture_samples", "[rendering]\nsamples = 16\npicture_samples = 4");
     add("rendering.samples", "[rendering]\nsamples = 3");
+    add("rendering.samples", "[rendering]\nsamples = 64");
+    add("rendering.vsync", "[rendering]\nvsync = false");
+    add("rendering.context", "[rendering]\ncontext = \"egl\"");
+    add("quality.frame_budget_ms",
+        "[rendering]\nframe_rate_limit = 90\n[quality]\nframe_budget_ms = 33");
+    add("quality.frame_budget_ms", "[openxr]\nenabled = true\n[quality]\nframe_budget_ms = 33");
+    add("quality.still_budget_ms", "[quality]\nframe_budget_ms = 16\nstill_budget_ms = 10");
+    add("panel", "[panel]\ndistance = 5");
+    add("panel", "[panel]\nwidth = 2\ndistance = 0.3");
+    add("cluster", "[cluster]\nswap_group = true");
+    add("placement.fill", "[placement]\nfill = 0.85");
     add("lighting.ambient", "[lighting]\nambient = 2.5");
     add("lighting", "[look]\nlight = [0.6, 0.8]");
     add("lighting", "[look]\nlight = [30, -50]");
@@ -467,15 +575,15 @@ std::vector<Mistake> mistakes_of_values() {
 
 std::vector<Mistake> all_mistakes() {
     std::vector<Mistake> all;
-    for (const auto& some : {mistakes_of_screens(), mistakes_of_windows(), mistakes_of_viewers(),
-                             mistakes_of_trackers(), mistakes_of_values()})
+    for (const auto& some : {mistakes_of_screens(), mistakes_of_windows(), mistakes_of_displays(),
+                             mistakes_of_viewers(), mistakes_of_trackers(), mistakes_of_values()})
         all.insert(all.end(), some.begin(), some.end());
     return all;
 }
 
 TEST(LabMistakes, EachIsToldWithItsKey) {
     const std::vector<Mistake> all = all_mistakes();
-    EXPECT_GE(all.size(), 150u);
+    EXPECT_GE(all.size(), 180u);
     for (const Mistake& mistake : all)
         EXPECT_THAT(said_of(mistake.text), Contains(HasSubstr(mistake.key))) << mistake.what << "\n"
                                                                              << mistake.text;
@@ -483,8 +591,8 @@ TEST(LabMistakes, EachIsToldWithItsKey) {
 
 TEST(LabMistakes, EveryCheckTellsOfOne) {
     const std::vector<Mistake> all = all_mistakes();
-    for (const auto& checks : {checks_of_screens(), checks_of_walls(), checks_of_viewers(),
-                               checks_of_devices(), checks_of_values()})
+    for (const auto& checks : {checks_of_screens(), checks_of_walls(), checks_of_displays(),
+                               checks_of_viewers(), checks_of_devices(), checks_of_values()})
         for (const Check& check : checks) {
             const bool told = std::ranges::any_of(all, [&](const Mistake& mistake) {
                 try {
@@ -608,6 +716,20 @@ std::vector<SoundRoom> sound_rooms() {
         (*corner)[0] += 0.15;
     std::vector<Wall> short_floor = box(3, 3, 3, "front left right floor");
     short_floor.back().lower_left[2] = 0.75;
+    std::string two_projectors = row_of({"position = [0, 0]\n", "position = [1920, 0]\n"});
+    two_projectors = with_all(two_projectors, kQuad + "\n", left);
+    std::string of_right = with_all(with_all(two_projectors, left, right), "\"t", "\"r");
+    of_right = with(with(of_right, "[1920, 0]", "[5760, 0]"), "[0, 0]", "[3840, 0]");
+    two_projectors += of_right.substr(of_right.find("[[windows]]"));
+    std::vector<Wall> around;
+    for (int i = 0; i < 5; ++i) {
+        const double a = 0.4 * std::numbers::pi * i, b = a + 0.4 * std::numbers::pi;
+        around.push_back({fmt::format("side {}", i),
+                          {2 * std::sin(a), 0, -2 * std::cos(a)},
+                          {2 * std::sin(a), 2.5, -2 * std::cos(a)},
+                          {2 * std::sin(b), 2.5, -2 * std::cos(b)}});
+    }
+    const std::string pentagon = room_of({0, 1.7, 0}, around);
     const double c = 1.5, s = 1.5 * std::numbers::sqrt3;
     return {
         {"CAVE of four walls", cave()},
@@ -674,18 +796,14 @@ std::vector<SoundRoom> sound_rooms() {
              "[dtrack]\n[[dtrack.devices]]\nname = \"head\"\nbody = 0\n"},
         {"a display that stands on its side",
          room_of({0, 1.7, 0}, {{"d", {0.3, 0.6, -2}, {-0.3, 0.6, -2}, {-0.3, 1.6667, -2}, mono}})},
-        {"a headset, a window for each eye", room_of({0, 1.6, 0}, {{"left",
-                                                                    {-1.2, -1, -1},
-                                                                    {-1.2, 1, -1},
-                                                                    {0.8, 1, -1},
-                                                                    left,
-                                                                    "carried_by = \"head\"\n"},
-                                                                   {"right",
-                                                                    {-0.8, -1, -1},
-                                                                    {-0.8, 1, -1},
-                                                                    {1.2, 1, -1},
-                                                                    right,
-                                                                    "carried_by = \"head\"\n"}})},
+        {"a headset, a window for each eye", two_eyes("left", "right")},
+        {"displays one above the other in a window", column_of(0.5, 0)},
+        {"displays on one desktop, in their order",
+         row_of({"position = [0, 0]\n", "position = [1920, 0]\n", "position = [3840, 0]\n"})},
+        {"a projector for each eye of two displays, on one desktop", two_projectors},
+        {"projectors that share a fifth", row_of({"", ""}, 0.8)},
+        {"machines whose projector is the second monitor", on_machines({1, 1, 1, 1})},
+        {"five walls around the viewer", pentagon},
         {"a headset", with(hmd(), "lower_left", "carried_by = \"head\"\nlower_left")},
         {"an operator's window", cave("[[windows]]\nname = \"operator\"\nstereo = \"mono\"\n"
                                       "[[windows.viewports]]\n[windows.viewports.projection]\n"

@@ -218,7 +218,7 @@ TEST(SessionKeeper, DropsNoneThatHasANameOrMarks) {
     explore_on_day(path, state, 0, "draft");
     const std::vector<std::function<void(ExplorerState&)>> marks{
         [](ExplorerState& one) { one.mark.point.emplace(); },
-        [](ExplorerState& one) { one.ruler.places.emplace_back(1.0); },
+        [](ExplorerState& one) { one.rulers.list.emplace_back(); },
         [](ExplorerState& one) {
             one.bookmarks.push_back({.name = "x", .instant = index::Instant(1)});
         }};
@@ -509,7 +509,11 @@ TEST(SessionFile, ARestoredSessionShowsTheSamePixels) {
         commands.room_from_physical = interaction::Similarity{
             {-0.31, 0.87, -1.9}, glm::normalize(glm::dquat(0.9, 0.1, 0.3, -0.2)), 0.041};
         commands.clip = interaction::ClipPlane{true, {16, 15, 15}, {1, 0, 0}};
-        commands.ruler = interaction::Ruler{{{10, 10, 10}, {20, 20, 12}}};
+        commands.rulers = interaction::Rulers{
+            .list = {{.name = "1", .places = {{10, 10, 10}, {20, 20, 12}}},
+                     {.name = "2", .places = {{1, 1, 1}}, .angle = true, .shown = false}},
+            .picked = 1,
+            .angle = true};
         commands.mark = interaction::Mark{interaction::MarkedPoint{{12, 14, 16}, {4, 12345}, 9.25}};
         commands.grid = true;
         session.frame(head_at_rest(0), commands, Waiting::for_cells);

@@ -59,7 +59,7 @@ TEST_F(Clicks, OneLeadsToTheNextStepASecondSurfaceAndAPicture) {
     EXPECT_TRUE(one_click({0, middle}, {300, middle}, [](const Commands& commands) {
         return commands.instant == index::Instant(1);
     }));
-    EXPECT_TRUE(one_click({23, 420}, {23, 380}, [](const Commands& commands) {
+    EXPECT_TRUE(one_click({23, 481}, {23, 441}, [](const Commands& commands) {
         return commands.isosurfaces && commands.isosurfaces->size() == 2;
     }));
     EXPECT_TRUE(one_click({0, 18}, {400, 18},
@@ -78,10 +78,10 @@ TEST_F(Clicks, TwoLeadToAClipPlaneAcrossX) {
 
 TEST_F(Clicks, ALineOfTheHistogramIsTakenWhereTheHandIsAndPicksItsSurface) {
     asked_.isosurfaces = {{20, {1, 0, 0}, 1}, {80, {0, 1, 0}, 1}};
-    size_.y = 900; // all of the panel has room, and no scroll bar stands beside it
+    size_.y = 1000; // all of the panel has room, and no scroll bar stands beside it
     frame();
     // From 12 to 288 lie the values 0 to 100.
-    const auto place_of = [](float value) { return glm::vec2(12 + 2.76f * value, 280); };
+    const auto place_of = [](float value) { return glm::vec2(12 + 2.76f * value, 367); };
     const Commands near_second = click(place_of(81));
     EXPECT_EQ(near_second.picked, 1u);
     EXPECT_NEAR(near_second.isovalue.value_or(0), 81, 0.5);

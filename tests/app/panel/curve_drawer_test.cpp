@@ -66,6 +66,22 @@ TEST_F(CurveDrawerTest, ShowsTheNumbersOfThePresentStep) {
     EXPECT_FALSE(says("greatest")) << "there is no array on the surface";
 }
 
+TEST_F(CurveDrawerTest, PlotsTheValuesAlongTheRulerAndMarksWhereItIsPressed) {
+    asked_.curves.measure = kProfileCurve;
+    asked_.rulers.list = {{.name = "1", .places = {{0, 1, 1}, {4, 1, 1}}}};
+    asked_.isosurfaces[0].isovalue = 3;
+    curves_.profile = std::make_shared<const Profile>(
+        profile_of({file_, index::Instant(1), asked_.rulers.list[0].places}));
+    EXPECT_TRUE(says("ruler 1, 4 mm, 1"));
+    EXPECT_TRUE(says("at 2 mm rising"));
+    const interaction::Commands pressed = click(in_drawer(0.4f, 0.5f));
+    ASSERT_TRUE(pressed.mark && pressed.mark->point);
+    const interaction::MarkedPoint& point = *pressed.mark->point;
+    EXPECT_NEAR(point.value, point.position.x + 1, 1e-6);
+    EXPECT_TRUE(point.position.x > 0.5 && point.position.x < 3.5) << point.position.x;
+    EXPECT_FALSE(pressed.instant) << "the ruler is no axis of time";
+}
+
 TEST_F(CurveDrawerTest, GoesWhereThePlotIsPressed) {
     const interaction::Commands early = click(in_drawer(0.2f, 0.5f));
     const interaction::Commands late = click(in_drawer(0.6f, 0.5f));

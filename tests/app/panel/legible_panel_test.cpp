@@ -185,7 +185,9 @@ TEST_P(LegiblePanel, WithSeveralSurfacesAndAColorMap) {
 TEST_P(LegiblePanel, WithWhatToolsHaveMade) {
     asked_.tools.mouse = asked_.tools.wand = interaction::ToolKind::clip;
     asked_.clip.shown = true;
-    asked_.ruler.places = {{1, 2, 3}};
+    asked_.rulers.list = {{.name = "1", .places = {{1, 2, 3}, {2, 3, 4}}},
+                          {.name = "2", .places = {{1, 2, 3}}, .angle = true}};
+    asked_.marks = {{"eye of the storm", {.instant = {}, .value = 12.25}}};
     asked_.mark.point = interaction::MarkedPoint{{1.5, 2.5, 3.5}, {}, 12.25};
     expect_legible_sections("with tools");
 }

@@ -90,13 +90,15 @@ TEST_P(Placement, NothingOverlapsInSeventyTwoStates) {
         asked_.mark.point = interaction::MarkedPoint{{1.5, 2.5, 3.5}, {}, 12.25};
     };
     const auto clip = [this] { asked_.clip = {true, {1, 2, 3}, {0, 0, 1}}; };
-    const std::array<State, 4> tools{
-        {{"no tool", nothing}, {"mark", mark}, {"clip", clip}, {"all tools", [&] {
-                                                                    mark();
-                                                                    clip();
-                                                                    asked_.ruler.places = {
-                                                                        {1, 2, 3}, {2, 3, 4}};
-                                                                }}}};
+    const std::array<State, 4> tools{{{"no tool", nothing},
+                                      {"mark", mark},
+                                      {"clip", clip},
+                                      {"all tools", [&] {
+                                           mark();
+                                           clip();
+                                           asked_.rulers.list = {
+                                               {.name = "1", .places = {{1, 2, 3}, {2, 3, 4}}}};
+                                       }}}};
     const std::array<PastMessage, 1> past{
         {{"14:06:10", "saved /home/somebody/a rather long name of a folder, as disks have "
                       "them/isochron_0001.png"}}};
@@ -132,7 +134,7 @@ TEST_P(Placement, NothingOverlapsInSeventyTwoStates) {
             for (const State& card : cards) {
                 asked_.mark = {};
                 asked_.clip = {};
-                asked_.ruler = {};
+                asked_.rulers = {};
                 notes_ = {.messages = notes_.messages};
                 frame();
                 tool.begin();

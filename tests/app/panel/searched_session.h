@@ -23,7 +23,8 @@ struct Searched {
         stats.histogram.assign(256, 1);
         asked.isosurfaces = {{.isovalue = 40}, {.isovalue = 60}};
         asked.mark.point.emplace();
-        asked.ruler.places.emplace_back(0.0);
+        asked.rulers.list = {{.name = "1", .places = {glm::dvec3(0.0), glm::dvec3(1.0)}},
+                             {.name = "2"}};
         asked.clip.shown = true;
         asked.clip_box.shown = true;
         asked.slices.planes.emplace_back();

@@ -45,7 +45,7 @@ TEST_F(TypedNumbers, ASingleClickBeginsThemAndTheyMayHaveADecimalCommaUnlessThey
             step = at;
     };
     const PanelLayout layout = layer_.layout();
-    for (float y = 350; y < 400; y += 9) // below the histogram
+    for (float y = 411; y < 461; y += 9) // below the histogram
         look({130, y});
     for (float x = 200; x < 500; x += 20)
         look({x, (layout.time.low.y + layout.time.high.y) / 2});

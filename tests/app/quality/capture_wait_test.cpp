@@ -90,6 +90,20 @@ double taken_at(CaptureWait& wait, const std::function<CaptureView(double)>& at)
     return time;
 }
 
+TEST(CaptureWait, SomeSlowFramesAreNoMotionThatDoesNotEnd) {
+    CaptureWait wait;
+    wait.ask();
+    double time = 0;
+    for (int frame = 0; frame < 8; ++frame, time += 6) // a large picture on a busy processor
+        EXPECT_FALSE(wait.take(view(time, kAsked, kAsked, false))) << time;
+    EXPECT_TRUE(wait.take(view(time, kAsked, kAsked, true)));
+    wait.ask();
+    int frames = 0;
+    for (; frames < 100 && !wait.take(view(time, kAsked, kAsked, false)); ++frames)
+        time += 6;
+    EXPECT_EQ(frames, CaptureWait::kPatience / CaptureWait::kOfFrame);
+}
+
 TEST(CaptureWait, MotionThatDoesNotEndIsWaitedForNoLongerThanThePatience) {
     const auto restless = [](double time) { return view(time, kAsked, kAsked, false); };
     const auto playing = [](double time) {

@@ -5,6 +5,7 @@
 #include "index/indexing/first_steps.h"
 #include "index/indexing/index_build.h"
 #include "index/search/tree_of_file.h"
+#include "index/system/memory_limit.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 
@@ -64,6 +65,15 @@ class IndexFileTest : public testing::Test {
     }
     TestFolder folder;
 };
+
+TEST_F(IndexFileTest, KeepsAQuarterOfTheMemoryOrWhatIsAskedFor) {
+    std::mt19937 random(test_seed());
+    const TestField field({5, 3, 4}, 1, ValueType::u8, scaled(white_noise(random), 100, 10),
+                          {1, 0});
+    const auto path = build(field.view());
+    EXPECT_EQ(IndexFile::open(path)->cache_bytes(), memory_limit() / 4);
+    EXPECT_EQ(IndexFile::open(path, 1 << 20)->cache_bytes(), 1u << 20);
+}
 
 TEST_F(IndexFileTest, EveryTypeGoesInAndComesOutUnchanged) {
     std::mt19937 random(test_seed());

@@ -78,7 +78,8 @@ TEST(FormatsPage, TheKeysOfPartsAreLookedFor) {
     EXPECT_EQ(keys.at("isosurfaces"),
               (std::vector<std::string>{"isovalue", "color", "opacity", "array"}));
     EXPECT_EQ(keys.at("mark"), (std::vector<std::string>{"position", "step", "value", "fraction",
-                                                         "array", "unit"}));
+                                                         "array", "unit",
+                                        "shown"}));
     EXPECT_EQ(keys.at("stamps"), std::vector<std::string>{});
 }
 

@@ -72,7 +72,7 @@ struct RandomValue {
     void operator()(const Field&, Plane& into) {
         ClipPlane plane;
         (*this)(Field{""}, plane);
-        into = {plane.point, plane.normal};
+        into = {plane.point, plane.normal, plane.shown};
     }
     void operator()(const Field&, ClipBox& into) {
         into = {random() % 2 == 0, glm::dvec3(uniform(random, -9, 0)), glm::dvec3(1, 2, 3)};

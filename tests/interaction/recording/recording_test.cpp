@@ -1,6 +1,8 @@
 // Recordings are read as they were written, and damaged files only give an error.
 #include "interaction/recording/recording.h"
 
+#include "interaction/recording/commands_json.h"
+
 #include "tests/interaction/input_builders.h"
 #include "tests/interaction/recording/random_commands.h"
 #include "tests/interaction/recording/recording_in.h"
@@ -10,6 +12,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -140,7 +143,7 @@ TEST_F(RecordingFile, UnchangedDevicesTakeNoSpace) {
         recording.frames.push_back(frame);
     }
     write_recording(path_, recording);
-    EXPECT_LT(fs::file_size(path_), 20'000u);
+    EXPECT_LT(fs::file_size(path_), 22'000u);
 }
 
 TEST_F(RecordingFile, AppearsUnderItsNameOnlyWhenFinished) {
@@ -270,6 +273,21 @@ TEST_F(RecordingFile, BitsOfVersion1BecomeActions) {
 TEST_F(RecordingFile, TheNamesOfVersion2StayForEver) {
     const Recording recording = recording_in(test_support::test_data() + "/old/version2.jsonl");
     EXPECT_EQ(recording.frames.at(0).input.find("keys")->actions.count(), 82u);
+}
+
+TEST_F(RecordingFile, TheOneRulerOfEarlierVersionsIsTheFirstOfTheList) {
+    const auto read = [](const char* json) {
+        return commands_from(nlohmann::json::parse(json), "here");
+    };
+    const Commands one = read(R"({"ruler":{"places":[[1,2,3],[4,5,6]]}})");
+    const Rulers expected{.list = {{.name = "1", .places = {{1, 2, 3}, {4, 5, 6}}}}};
+    EXPECT_EQ(one.rulers, expected);
+    EXPECT_EQ(commands_from(commands_json(one), "again").rulers, expected);
+    EXPECT_EQ(read(R"({"ruler":{"places":[]}})").rulers, Rulers{});
+    EXPECT_EQ(
+        read(R"({"keys":[{"time":1,"ruler":{"places":[[1,2,3]]}}]})").keys->at(0).rulers->list,
+        (std::vector<Ruler>{{.name = "1", .places = {{1, 2, 3}}}}));
+    EXPECT_EQ(read(R"({"mark":{"position":[1,2,3],"step":0,"value":1}})").mark->point->shown, true);
 }
 
 TEST_F(RecordingFile, OtherFilesAndNewerVersionsAreRefused) {

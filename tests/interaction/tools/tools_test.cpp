@@ -1,5 +1,6 @@
 // Tools: what hands do with the tool that they hold.
 #include "interaction/tools/clip_tool.h"
+#include "interaction/tools/ruler_tool.h"
 #include "interaction/tools/slice_tool.h"
 #include "interaction/tools/tool_table.h"
 
@@ -113,21 +114,84 @@ TEST(Tools, ADoubleClickBringsThePlaceToTheMiddleOfTheView) {
     EXPECT_EQ(desk.volume(), focused) << "nor do two that are far apart";
 }
 
-TEST(Tools, TheRulerMeasuresInTheDataUnitsAndBeginsAnew) {
+TEST(Tools, RulersMeasureInTheDataUnitsAndStayBesideTheNextOnes) {
     ToolDesk desk;
     desk.tap(choice_of(ToolKind::ruler));
-    const glm::dvec3 a(10, 10, 30), b(40, 50, 30);
+    const glm::dvec3 a(10, 10, 30), b(40, 50, 30), c(40, 10, 30);
+    const Rulers& rulers = desk.settings.rulers;
     desk.click(desk.in_room(a));
-    EXPECT_EQ(desk.settings.ruler.places.size(), 1u);
+    ASSERT_EQ(rulers.list.size(), 1u);
+    EXPECT_FALSE(rulers.list[0].complete());
     desk.click(desk.in_room(b));
-    ASSERT_EQ(desk.settings.ruler.places.size(), 2u);
-    const ToolDrawing drawing = drawing_of(desk.settings, desk.context.data);
-    ASSERT_EQ(drawing.labels.size(), 1u);
-    EXPECT_EQ(drawing.labels[0].text, "50 mm");
+    ASSERT_EQ(rulers.list.size(), 1u);
+    ASSERT_TRUE(rulers.list[0].complete());
+    const auto labels = [&] {
+        std::vector<std::string> words;
+        for (const ToolLabel& label : drawing_of(desk.settings, desk.context.data).labels)
+            words.push_back(label.text);
+        return words;
+    };
+    EXPECT_EQ(labels(), std::vector<std::string>{"50 mm"});
+    desk.tap(bit(Action::ruler_angle));
+    for (const glm::dvec3& place : {a, c, b})
+        desk.click(desk.in_room(place));
+    EXPECT_EQ(labels(), (std::vector<std::string>{"1: 50 mm", "2: 90\u00b0"}));
+    desk.tap(bit(Action::ruler_angle));
     desk.click(desk.in_room(a));
-    EXPECT_EQ(desk.settings.ruler.places.size(), 1u);
+    ASSERT_EQ(rulers.list.size(), 3u);
+    EXPECT_FALSE(rulers.list[2].angle);
+    EXPECT_EQ(rulers.picked, 2u);
     desk.tap(bit(Action::remove_made));
-    EXPECT_TRUE(desk.settings.ruler.places.empty());
+    EXPECT_EQ(rulers.list.size(), 2u);
+    EXPECT_EQ(rulers.picked, 1u);
+    desk.settings.rulers.list[0].shown = false;
+    EXPECT_EQ(labels(), std::vector<std::string>{"2: 90\u00b0"});
+    desk.tap(bit(Action::annotations));
+    EXPECT_FALSE(rulers.list[1].shown) << "one was seen: all are hidden";
+    desk.tap(bit(Action::annotations));
+    EXPECT_TRUE(rulers.list[0].shown && rulers.list[1].shown);
+}
+
+TEST(Tools, OneRulerTooManyIsNotLaid) {
+    ToolDesk desk;
+    desk.tap(choice_of(ToolKind::ruler));
+    Rulers& rulers = desk.settings.rulers;
+    rulers.list.assign(kMostRulers, {.places = {{0, 0, 0}, {1, 0, 0}}});
+    desk.click(desk.in_room({10, 10, 30}));
+    EXPECT_EQ(rulers.list.size(), kMostRulers);
+    rulers.list.back().places.pop_back();
+    desk.click(desk.in_room({10, 10, 30}));
+    EXPECT_TRUE(rulers.list.back().complete());
+}
+
+TEST(Tools, AnAngleIsThatOfItsCosineAndExactWhereThatIsNot) {
+    Random random(test_seed());
+    const auto place = [&] {
+        return glm::dvec3(uniform(random, -9, 9), uniform(random, -9, 9), uniform(random, -9, 9));
+    };
+    for (int round = 0; round < 100; ++round) {
+        const glm::dvec3 a = place(), b = place(), c = place();
+        const double cosine = glm::dot(glm::normalize(a - b), glm::normalize(c - b));
+        EXPECT_NEAR(measured({.places = {a, b, c}, .angle = true}).value(),
+                    glm::degrees(std::acos(cosine)), 1e-5);
+    }
+    const double tiny = glm::degrees(1e-9);
+    EXPECT_NEAR(measured({.places = {{1, 0, 0}, {}, {1, 1e-9, 0}}, .angle = true}).value(), tiny,
+                1e-9 * tiny);
+    EXPECT_FALSE(measured({.places = {{}, {}, {1, 0, 0}}, .angle = true}));
+}
+
+TEST(Tools, AHiddenSliceIsNeitherDrawnNorHeld) {
+    ToolDesk desk;
+    desk.tap(choice_of(ToolKind::slice));
+    desk.settings.slices.planes = {{{30, 25, 30}, {0, 0, 1}, false}};
+    const Slices before = desk.settings.slices;
+    EXPECT_TRUE(drawing_of(desk.settings, desk.context.data).lines.empty());
+    EXPECT_FALSE(before.hides_surfaces());
+    desk.click(desk.in_room({30, 25, 30}));
+    ASSERT_EQ(desk.settings.slices.planes.size(), 2u) << "another one is laid beside it";
+    EXPECT_EQ(desk.settings.slices.planes[0], before.planes[0]);
+    EXPECT_EQ(desk.settings.slices.picked, 1u);
 }
 
 TEST(Tools, AClipPlaneGoesWithTheHandThatHoldsIt) {

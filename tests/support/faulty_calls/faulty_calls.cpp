@@ -3,6 +3,7 @@
 // libraries, the driver's cache of shaders and the system's own files stay as they are.
 //
 //     ISOCHRON_FAULT=write:3:ENOSPC    from the third write on the disk is full
+//     ISOCHRON_FAULT=read:2:SIGINT     the second read never ends, and meanwhile the signal comes; or SIGTERM
 //     ISOCHRON_FAULT_MARK=FILE         appears once the fault has been met
 //     ISOCHRON_CALL_LOG=FILE           gets a line for each call on a file that is written: open, write, size, sync (with
 //                                      the file's number), rename
@@ -29,21 +30,26 @@
 
 namespace {
 
-enum class How { none, no_space, failed, interrupted, part };
+enum class How { none, no_space, failed, interrupted, part, hangs };
 
 struct Plan {
     std::array<char, 8> kind{};
     long at = 0;
     How how = How::none;
+    int signal = 0; ///< that comes while a call hangs
 
     Plan() {
         const char* text = std::getenv("ISOCHRON_FAULT");
         std::array<char, 8> name{};
         if (!text || std::sscanf(text, "%7[a-z]:%ld:%7s", kind.data(), &at, name.data()) != 3)
             return;
+        signal = !std::strcmp(name.data(), "SIGINT")    ? SIGINT
+                 : !std::strcmp(name.data(), "SIGTERM") ? SIGTERM
+                                                        : 0;
         how = !std::strcmp(name.data(), "ENOSPC")  ? How::no_space
               : !std::strcmp(name.data(), "EIO")   ? How::failed
               : !std::strcmp(name.data(), "EINTR") ? How::interrupted
+              : signal != 0                        ? How::hangs
                                                    : How::part;
     }
 };
@@ -109,6 +115,10 @@ How fault_of(const char* kind) {
     if (call != plan().at && !(lasts && call > plan().at))
         return How::none;
     mark();
+    if (plan().how == How::hangs)
+        ::kill(::getpid(), plan().signal);
+    while (plan().how == How::hangs)
+        ::pause();
     return plan().how;
 }
 

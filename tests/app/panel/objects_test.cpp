@@ -1,0 +1,193 @@
+// The list of what is in the picture: its table of kinds, its lines on the panel, and in the search.
+#include "app/panel/item_table.h"
+
+#include "app/panel/search_table.h"
+#include "tests/app/panel/layer_fixture.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using testing::ElementsAre;
+
+/// A session with one thing of each kind at least.
+class Objects : public LayerTest {
+  protected:
+    Objects() {
+        offer_three_arrays(); // slices are of one of them
+        info_.array = "vorticity";
+        info_.value_unit = "1/s";
+        asked_.isosurfaces = {{.isovalue = 9.5, .opacity = 0.4f}, {.isovalue = 12}};
+        asked_.slices.planes = {{{1, 2, 3}, {0, 0, 1}}, {{1, 2, 3}, {1, 0, 0}}};
+        asked_.clip = {true, {1, 2, 3}, {0, 1, 0}};
+        asked_.clip_box = {true, {0, 0, 0}, {1, 1, 1}};
+        asked_.models = {{.path = "models/hull.stl"}};
+        asked_.ghosts = {.earlier = 2};
+        asked_.pieces.only = {{1, {1, 1, 1}}};
+        asked_.pieces.hidden = {{0, {2, 2, 2}}};
+        asked_.pieces.dust = 20;
+        asked_.marks = {{"eye", {.position = {1, 1, 1}, .instant = {}, .value = 4.25}},
+                        {"tail", {.position = {2, 1, 1}, .instant = {}, .value = 5}}};
+        asked_.mark.point =
+            interaction::MarkedPoint{.position = {3, 1, 1}, .instant = {}, .value = 6};
+        asked_.rulers.list = {{.name = "1", .places = {{0, 0, 0}, {3, 4, 0}}},
+                              {.name = "2", .places = {{0, 0, 0}}, .angle = true}};
+        asked_.curves.shown = true;
+    }
+    PanelModel model() const {
+        return {.info = info_,
+                .stats = stats_,
+                .asked = asked_,
+                .frame = report_,
+                .controls = controls_};
+    }
+    std::vector<std::string> words() const {
+        std::vector<std::string> all;
+        for (const ItemKind& kind : item_kinds())
+            for (std::size_t i = 0; i < kind.count(model()); ++i)
+                all.push_back(words_of_item(kind.item(model(), i)));
+        return all;
+    }
+    void obey(const Commands& commands) { EXPECT_TRUE(asked_.apply(commands, info_.steps())); }
+    static const ItemKind& kind(std::string_view name) {
+        return *std::ranges::find(item_kinds(), name, &ItemKind::name);
+    }
+    Item item(std::string_view name, std::size_t i) const { return kind(name).item(model(), i); }
+};
+
+TEST_F(Objects, SayWhatThereIsWithItsValue) {
+    EXPECT_THAT(words(),
+                ElementsAre("vorticity 9.5 1/s", "vorticity 12 1/s", "slice z = 3", "slice x = 1",
+                            "clip plane y = 2", "clip box", "hull.stl",
+                            "ghosts: 2 earlier, 0 later", "piece alone of vorticity 12 1/s",
+                            "piece of vorticity 9.5 1/s", "dust below 20 cells",
+                            "mark eye 4.25 1/s", "mark tail 5 1/s", "mark here 6 1/s", "ruler 1 5",
+                            "angle 2 more places", "curve: area over time"));
+    EXPECT_EQ(words_for_items(model()), "15 of 17 shown");
+    asked_ = {};
+    EXPECT_EQ(words_for_items(model()), "1 of 1 shown") << "a plain session has its surface";
+}
+
+TEST_F(Objects, AreHiddenByTheirEyesWhichBringThemBackAsTheyWere) {
+    const ExplorerState before = asked_;
+    for (const ItemKind& kind : item_kinds()) {
+        if (kind.name == "piece") // its eye frees it: it leaves the list
+            continue;
+        for (std::size_t i = 0; i < kind.count(model()); ++i) {
+            const float opacity = kind.item(model(), i).opacity.value_or(1.0f);
+            Commands hide, show;
+            show_item(kind, model(), i, false, hide);
+            obey(hide);
+            EXPECT_FALSE(kind.item(model(), i).shown) << kind.name << i;
+            EXPECT_NE(asked_, before) << kind.name << i;
+            show_item(kind, model(), i, true, show, opacity);
+            obey(show);
+            EXPECT_EQ(asked_, before) << kind.name << i;
+        }
+    }
+}
+
+TEST_F(Objects, OfPiecesAreFreedByTheirEyes) {
+    const ItemKind& pieces = kind("piece");
+    for (std::size_t left = 3; left > 0; --left) {
+        ASSERT_EQ(pieces.count(model()), left);
+        Commands free;
+        show_item(pieces, model(), left / 2, true, free);
+        obey(free);
+    }
+    EXPECT_TRUE(asked_.pieces.all());
+}
+
+TEST_F(Objects, AreRemovedOneByOneButForTheLastSurface) {
+    for (const ItemKind& kind : item_kinds())
+        for (std::size_t left = kind.count(model()); left > kind.least; --left) {
+            Commands commands;
+            kind.remove(model(), left / 2, commands);
+            obey(commands);
+            EXPECT_EQ(kind.count(model()), left - 1) << kind.name;
+        }
+    EXPECT_THAT(words(), ElementsAre("vorticity 9.5 1/s"));
+}
+
+TEST_F(Objects, AreShownAloneAmongTheirKind) {
+    for (const std::string_view name : {"surface", "slice", "mark", "ruler"}) {
+        const ItemKind& kind = this->kind(name);
+        Commands commands;
+        show_alone(kind, model(), 1, commands);
+        obey(commands);
+        for (std::size_t i = 0; i < kind.count(model()); ++i)
+            EXPECT_EQ(kind.item(model(), i).shown, i == 1) << name << i;
+    }
+}
+
+TEST_F(Objects, AHiddenMarkIsTheSameInBothLists) {
+    asked_.mark.point = asked_.marks[1].point;
+    EXPECT_EQ(kind("mark").count(model()), 2u) << "a mark that was kept is one line";
+    Commands commands;
+    show_item(kind("mark"), model(), 1, false, commands);
+    obey(commands);
+    EXPECT_FALSE(asked_.mark.point->shown);
+    EXPECT_FALSE(asked_.marks[1].point.shown);
+}
+
+TEST_F(Objects, GoWhereAMarkWasMade) {
+    asked_.marks[1].point.instant = index::Instant(7);
+    asked_.playback.playing = true;
+    Commands commands;
+    kind("mark").go(model(), 1, commands);
+    obey(commands);
+    EXPECT_EQ(asked_.shown_instant(), index::Instant(7));
+    EXPECT_EQ(asked_.mark.point, asked_.marks[1].point);
+    EXPECT_FALSE(asked_.playback.playing);
+    commands = {};
+    kind("mark").acts[0].run(model(), 0, commands);
+    EXPECT_EQ(commands.marks->back().name, "1") << "the first free number";
+}
+
+TEST_F(Objects, HaveLinesInTheSearchByTheirNames) {
+    const PanelModel now = model();
+    std::map<std::string, const SearchLine*> by_name;
+    const std::vector<SearchLine> lines = search_lines(now);
+    for (const SearchLine& line : lines)
+        by_name[line.name] = &line;
+    ASSERT_TRUE(by_name.contains("mark=tail"));
+    EXPECT_EQ(by_name["mark=tail"]->words, "hide mark tail 5 1/s");
+    EXPECT_FALSE(by_name["mark=tail"]->commands.marks->at(1).point.shown);
+    EXPECT_EQ(by_name["objects"]->value, "15 of 17 shown");
+    for (const char* name : {"surface=1", "slice=2", "clip=box", "model=hull.stl", "ghosts=all",
+                             "piece=1", "ruler=2", "curve=drawer"})
+        EXPECT_TRUE(by_name.contains(name)) << name;
+}
+
+TEST_F(Objects, AreLinesOfThePanelWhoseWordsPickAndGo) {
+    asked_.pieces = {}; // whose lines name surfaces, too
+    asked_.slices.picked = 1;
+    const Commands picked = click_word("z = 3");
+    ASSERT_TRUE(picked.slices);
+    EXPECT_EQ(picked.slices->picked, 0u);
+    const Commands chosen = click_word("12 1/s");
+    EXPECT_EQ(chosen.picked, 1u);
+}
+
+TEST_F(Objects, AllStandInAListThatScrolls) {
+    asked_.marks.assign(interaction::kMostMarks, {"m", {.position = {9, 9, 9}, .instant = {}}});
+    frame();
+    frame();
+    const auto at = [&](const char* word) {
+        return place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), word);
+    };
+    EXPECT_TRUE(at("9.5 1/s"));
+    EXPECT_FALSE(at("curve: area over time"));
+    EXPECT_TRUE(at("Surfaces")) << "the next section is not pushed out";
+}
+
+} // namespace
+} // namespace isochron::app

@@ -57,6 +57,7 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"isovalue"}, r.isovalue...);
     visit(Field{"color", 0, 1}, r.color...);
     visit(Field{"opacity", 0, 1}, r.opacity...);
+    visit(Field{.key = "array", .most = kLongestArrayName, .may_lack = true}, r.array...);
 }
 
 template <class Visit, Of<Coloring>... Records>

@@ -95,13 +95,21 @@ struct Isosurface {
     double isovalue = 0;
     glm::vec3 color{0.94f, 0.86f, 0.70f}; ///< sRGB, 0 to 1
     float opacity = 1.0f;                 ///< 0 to 1
+    /// Name of the array that it is a surface of; empty: the array that the session shows.
+    std::string array = {};
     bool operator==(const Isosurface&) const = default;
+
+    bool of_shown_array() const { return array.empty(); }
+};
+/// One surface: what a list of them begins with.
+struct OneSurface {
+    operator std::vector<Isosurface>() const { return {Isosurface{}}; }
 };
 
-/// Whether one of the surfaces lets light through, or whether one is opaque.
+/// Whether one of the surfaces of the shown array lets light through, or whether one is opaque.
 inline bool any_is(std::span<const Isosurface> surfaces, bool translucent) {
     return std::ranges::any_of(surfaces, [=](const Isosurface& surface) {
-        return (surface.opacity < 1.0f) == translucent;
+        return surface.of_shown_array() && (surface.opacity < 1.0f) == translucent;
     });
 }
 /// A bit for each surface that is seen at all.

@@ -36,8 +36,8 @@ struct SettingsOf {
     // What is shown.
     Holds<std::string> array{}; ///< array of the surfaces, by name; empty: the index's first
     Holds<std::vector<Isosurface>> isosurfaces = at_first<Holds, std::vector<Isosurface>>(
-        std::vector<Isosurface>{{}}); ///< all of them, 1 to kMostIsosurfaces
-    Holds<std::uint32_t> picked{};    ///< the surface whose isovalue is moved, counted from 0
+        OneSurface{});             ///< all of them, 1 to kMostIsosurfaces
+    Holds<std::uint32_t> picked{}; ///< the surface whose isovalue is moved, counted from 0
     Holds<Coloring> coloring{};
     Holds<Look> look{};
     Holds<bool> bounding_box = at_first<Holds, bool>(true); ///< the box with its ticks and numbers

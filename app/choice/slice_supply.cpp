@@ -87,15 +87,16 @@ void SliceSupply::update(const Frame& frame) {
 std::vector<ShownSlice> shown_slices(const std::vector<index::SliceValuesPtr>& read,
                                      const ExplorerState& state, const index::IndexFile& file) {
     std::vector<ShownSlice> slices;
-    const std::size_t surfaces = file.array_called(state.array).value_or(0);
     for (const index::SliceValuesPtr& slice : read) {
         if (slice->outline.empty())
             continue;
-        const bool lines = state.slices.isolines && slice->query.array == surfaces;
+        std::vector<interaction::Isosurface> lines; // the surfaces of its array
+        for (std::size_t i = 0; state.slices.isolines && i < state.isosurfaces.size(); ++i)
+            if (array_of_surface(state, i, file) == slice->query.array)
+                lines.push_back(state.isosurfaces[i]);
         ColorScale scale = slice_scale(state, file, slice->query.array);
         scale.whole = slice->whole; // a series that grows may have a wider one by now
-        slices.push_back({slice, std::move(scale),
-                          lines ? state.isosurfaces : std::vector<interaction::Isosurface>()});
+        slices.push_back({slice, std::move(scale), std::move(lines)});
     }
     return slices;
 }

@@ -115,7 +115,10 @@ struct Searched {
 Searched searched(const ControlRequest& request,
                   const std::shared_ptr<const index::IndexFile>& file, const ExplorerState& shown) {
     const std::string& name = request.array ? *request.array : shown.array;
-    const std::size_t number = name.empty() ? 0 : index::array_number(*file, name);
+    const bool of_picked = !request.array && !request.isovalue;
+    const std::size_t number = of_picked      ? array_of_surface(shown, shown.picked, *file)
+                               : name.empty() ? 0
+                                              : index::array_number(*file, name);
     Searched result{.array = index::array_of(file, number), .query = {}, .words = {}};
     const index::Instant at = request.step
                                   ? index::Instant(index::step_named(*result.array, *request.step))

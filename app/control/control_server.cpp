@@ -207,6 +207,11 @@ void ControlServer::answer(Connection& client, const ControlRequest& request,
         if (const auto& array = request.commands.array;
             array && !array->empty() && !file->array_called(*array))
             throw interaction::Error(fmt::format("array: the index has no array {}", *array));
+        for (const auto& surface :
+             request.commands.isosurfaces.value_or(std::vector<interaction::Isosurface>()))
+            if (!surface.array.empty() && !file->array_called(surface.array))
+                throw interaction::Error(
+                    fmt::format("isosurfaces: the index has no array {}", surface.array));
         const std::uint64_t number = desk_.post(request.commands);
         if (number == 0)
             throw interaction::Error("busy: more commands wait than frames have taken; try again");

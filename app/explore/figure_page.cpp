@@ -40,6 +40,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 namespace isochron::app {
@@ -58,10 +59,11 @@ struct DrawnPanel {
     std::vector<PageText> labels;         ///< `at` as above
     std::vector<PageLine> behind, before; ///< the box, with its ticks
     std::optional<ScaleBar> bar;          ///< its pixels are those of the picture
-    std::string length_unit, title, value_unit;
+    std::string length_unit, title;
     std::optional<ColorScale> scale;
     std::vector<interaction::Isosurface> surfaces;
-    std::vector<LegendLine> ghosts; ///< by time
+    std::vector<LegendLine> ghosts;         ///< by time
+    std::vector<std::string> surface_words; ///< their isovalues, and arrays if these are other ones
     std::string drawn_with, data_hash;
 };
 
@@ -188,12 +190,15 @@ class PanelDrawing {
         drawn.ghosts = session.ghost_lines();
         drawn.scale = session.scale();
         drawn.length_unit = info.length_unit;
-        drawn.value_unit = info.value_unit;
+        for (std::size_t i = 0; i < state.isosurfaces.size(); ++i) {
+            const interaction::Isosurface& surface = state.isosurfaces[i];
+            const index::SeriesInfo& own = file.array(array_of_surface(state, i, file)).info();
+            drawn.surface_words.push_back((surface.of_shown_array() ? "" : own.array + " ") +
+                                          with_unit(surface.isovalue, own.value_unit));
+        }
         drawn.bar = scale_bar(views.front(), state.room_from_physical, physical_center(info.grid));
-        index::SurfacesQuery shown{.instant = state.shown_instant(), .isovalues = {}};
-        for (const interaction::Isosurface& surface : state.isosurfaces)
-            shown.isovalues.push_back(surface.isovalue);
-        drawn.title = panel_.title.value_or(caption_text(shown, info));
+        const auto further = words_of(shown_further(session.further().shown(), state, file));
+        drawn.title = panel_.title.value_or(caption_text(state.surfaces(), info, further));
         if (panel_.axes)
             add_box(drawn, info, state, viewers.front().head, views, pixels, text, points);
         return drawn;
@@ -335,8 +340,11 @@ class FigureLayout {
     /// What the legend takes beside the picture [mm].
     struct LegendRoom {
         std::vector<ScaleTick> ticks{};
-        std::vector<LegendLine> lines{}; ///< surfaces, then ghosts, the latest first
-        std::size_t uncolored = 0;       ///< so many of them, as the scale has the colors
+        struct Line {
+            std::string words;
+            std::optional<glm::vec3> color; ///< none: the scale has the colors
+        };
+        std::vector<Line> lines{}; ///< surfaces, then ghosts, the latest first
         double width = 0;
     };
     LegendRoom legend_of(const FigurePanel& panel, const DrawnPanel& drawn) const {
@@ -352,12 +360,15 @@ class FigureLayout {
             widest = std::max(widest, width_of(drawn.scale->title) - 1.9 * size_);
         }
         if (drawn.surfaces.size() > 1)
-            for (const interaction::Isosurface& surface : drawn.surfaces)
-                room.lines.push_back(
-                    {surface.color, with_unit(surface.isovalue, drawn.value_unit)});
-        room.uncolored = drawn.scale ? room.lines.size() : 0;
-        room.lines.insert(room.lines.end(), drawn.ghosts.rbegin(), drawn.ghosts.rend());
-        for (const LegendLine& line : room.lines)
+            for (std::size_t i = 0; i < drawn.surfaces.size(); ++i) {
+                const interaction::Isosurface& surface = drawn.surfaces[i];
+                const bool on_scale = drawn.scale && surface.of_shown_array();
+                room.lines.push_back({drawn.surface_words[i],
+                                      on_scale ? std::nullopt : std::optional(surface.color)});
+            }
+        for (const LegendLine& ghost : drawn.ghosts | std::views::reverse)
+            room.lines.push_back({ghost.words, ghost.color});
+        for (const LegendRoom::Line& line : room.lines)
             widest = std::max(widest, width_of(line.words));
         if (!room.ticks.empty() || !room.lines.empty())
             room.width = widest + 3 * size_;
@@ -470,14 +481,14 @@ class FigureLayout {
             }
             y += high + line_height();
         }
-        for (std::size_t i = 0; i < legend.lines.size(); ++i) {
-            if (i >= legend.uncolored) {
+        for (const LegendRoom::Line& line : legend.lines) {
+            if (line.color) {
                 const glm::dvec2 patch(at.x, y + 0.15 * size_), side(bar, 0.9 * size_);
-                page().areas.push_back({patch, side, glm::dvec3(legend.lines[i].color)});
+                page().areas.push_back({patch, side, glm::dvec3(*line.color)});
                 outline(patch, side);
             }
             page().texts.push_back({.at = {at.x + bar + 0.7 * size_, y + 0.6 * size_},
-                                    .text = legend.lines[i].words,
+                                    .text = line.words,
                                     .points = figure_.font_size,
                                     .anchor = {0, 0.5}});
             y += line_height();

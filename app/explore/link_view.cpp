@@ -135,8 +135,9 @@ void see_as_linked(ExplorerState& state, const std::vector<double>& view,
         seen = before;
 }
 
-std::vector<interaction::Isosurface> surfaces_of(const std::string& text) {
-    std::vector<interaction::Isosurface> surfaces;
+/// Adds the surfaces of a list, as many as there may be.
+void add_surfaces(const std::string& text, const index::IndexFile& file,
+                  std::vector<interaction::Isosurface>& surfaces) {
     for (const std::string_view one : split(text, ',')) {
         const auto words = split(one, '/');
         const auto isovalue = number_of(words[0]);
@@ -147,9 +148,20 @@ std::vector<interaction::Isosurface> surfaces_of(const std::string& text) {
             surface.color = color_of(words[1]).value_or(surface.color);
         if (const auto opacity = words.size() > 2 ? number_of(words[2]) : std::nullopt)
             surface.opacity = static_cast<float>(std::clamp(*opacity, 0.0, 1.0));
+        if (const auto array = words.size() > 3 ? number_of(words[3]) : std::nullopt;
+            array && *array >= 0 && *array < static_cast<double>(file.arrays()))
+            surface.array = file.array(static_cast<std::size_t>(*array)).info().array;
         surfaces.push_back(surface);
     }
-    return surfaces;
+}
+
+/// `isovalue/color/opacity`, and the number of the array where it is not the shown one.
+std::string word_of(const interaction::Isosurface& surface, const index::IndexFile& file) {
+    std::string word =
+        fmt::format("{:.9g}/{}/{:.3g}", surface.isovalue, hex_of(surface.color), surface.opacity);
+    if (!surface.of_shown_array())
+        word += fmt::format("/{}", file.array_called(surface.array).value_or(0));
+    return word;
 }
 
 } // namespace
@@ -164,7 +176,10 @@ std::size_t array_of_link(const Words& settings, const index::IndexFile& file) {
 ExplorerState as_linked(ExplorerState state, const Words& settings, const index::IndexFile& file,
                         const LinkScreen& screen) {
     const std::size_t steps = file.info().steps();
-    if (auto surfaces = surfaces_of(word_of(settings, "surfaces")); !surfaces.empty()) {
+    std::vector<interaction::Isosurface> surfaces;
+    add_surfaces(word_of(settings, "surfaces"), file, surfaces);
+    if (!surfaces.empty()) {
+        add_surfaces(word_of(settings, "further"), file, surfaces);
         state.isosurfaces = std::move(surfaces);
         state.picked = 0;
     } else {
@@ -230,15 +245,29 @@ std::string link_to(const std::string& address, const ExplorerState& state,
     const double distance = sight.distance * sight.half / kPageHalf / seen.scale;
     const glm::dvec3 to = target - file.info().grid.origin,
                      eye = to + glm::conjugate(seen.rotation) * back * distance;
-    std::string surfaces;
-    for (const interaction::Isosurface& each : state.isosurfaces)
-        surfaces += fmt::format("{}{:.9g}/{}/{:.3g}", surfaces.empty() ? "" : ",", each.isovalue,
-                                hex_of(each.color), each.opacity);
-    std::string link = fmt::format("{}#array={}&step={}&isovalue={:.9g}&surfaces={}&picked={}&view="
-                                   "{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}",
-                                   address, file.array_called(state.array).value_or(0),
-                                   state.shown_instant().step, state.isovalue(), surfaces,
-                                   state.picked, eye.x, eye.y, eye.z, to.x, to.y, to.z);
+    // A page shows those of one array, and counts the picked one among them.
+    std::string surfaces, further;
+    std::size_t picked = 0, count = 0;
+    double isovalue = state.isovalue();
+    for (std::size_t i = 0; i < state.isosurfaces.size(); ++i) {
+        const interaction::Isosurface& each = state.isosurfaces[i];
+        std::string& list = each.of_shown_array() ? surfaces : further;
+        list += (list.empty() ? "" : ",") + word_of(each, file);
+        if (!each.of_shown_array())
+            continue;
+        if (i == state.picked || count == 0) {
+            picked = count;
+            isovalue = each.isovalue;
+        }
+        ++count;
+    }
+    std::string link =
+        fmt::format("{}#array={}&step={}&isovalue={:.9g}&surfaces={}&picked={}&view="
+                    "{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}",
+                    address, file.array_called(state.array).value_or(0), state.shown_instant().step,
+                    isovalue, surfaces, picked, eye.x, eye.y, eye.z, to.x, to.y, to.z);
+    if (!further.empty())
+        link += "&further=" + further;
     if (const std::uint32_t fraction = state.shown_instant().fraction)
         link += fmt::format("&fraction={}", fraction);
     constexpr double kTilted = 1e-4, kDigits = 1e7;

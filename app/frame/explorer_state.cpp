@@ -54,7 +54,8 @@ bool holds(const Field& field, const std::vector<T>& list) {
 bool holds(const Field& field, const std::vector<interaction::Isosurface>& surfaces) {
     return surfaces.size() >= field.least && surfaces.size() <= field.most &&
            std::ranges::all_of(surfaces, [](const interaction::Isosurface& surface) {
-               return std::isfinite(surface.isovalue) && holds(Field{"", 0, 1}, surface.opacity);
+               return std::isfinite(surface.isovalue) && holds(Field{"", 0, 1}, surface.opacity) &&
+                      surface.array.size() <= interaction::kLongestArrayName;
            });
 }
 bool are_percentiles(const std::array<double, 2>& ends) {
@@ -258,6 +259,13 @@ bool ExplorerState::resume(const interaction::Commands& kept, std::size_t held) 
     return apply(kept, held);
 }
 
+std::size_t array_of_surface(const ExplorerState& state, std::size_t surface,
+                             const index::IndexFile& file) {
+    const std::string& own = state.isosurfaces[surface].array;
+    const auto named = own.empty() ? std::nullopt : file.array_called(own);
+    return named ? *named : file.array_called(state.array).value_or(0);
+}
+
 index::PieceFilter filter_of(const interaction::ShownPieces& pieces) {
     index::PieceFilter filter{.only = {}, .hidden = {}, .dust = pieces.dust};
     for (const interaction::PlacedPiece& each : pieces.only)
@@ -278,8 +286,13 @@ index::SurfacesQuery ExplorerState::surfaces() const {
         break;
     }
     for (const interaction::Isosurface& surface : isosurfaces)
-        query.isovalues.push_back(surface.isovalue);
+        query.isovalues.push_back(surface.of_shown_array() ? surface.isovalue : kNoSurface);
     query.pieces = filter_of(pieces);
+    for (auto* const list : {&query.pieces.only, &query.pieces.hidden})
+        std::erase_if(*list, [&](const index::PieceAt& piece) {
+            return piece.surface < isosurfaces.size() &&
+                   !isosurfaces[piece.surface].of_shown_array();
+        });
     return query;
 }
 

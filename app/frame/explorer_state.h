@@ -8,10 +8,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace isochron::app {
+
+/// The isovalue, in a query, of a surface that is not one of the query's array: it has no active cells.
+inline constexpr double kNoSurface = std::numeric_limits<double>::infinity();
 
 struct ExplorerState : interaction::Settings {
     stereo::StereoMode stereo_mode() const { return *stereo::stereo_mode_from_name(stereo); }
@@ -44,10 +48,20 @@ struct ExplorerState : interaction::Settings {
     /// Commands that lead back to the start state, except for displays, viewpoints and tools.
     interaction::Commands way_to_start(const ExplorerState& start) const;
 
-    /// The query for the cells: instant, isovalues in the order of `isosurfaces`, and coloring.
+    /// The query for the cells: instant, isovalues in the order of `isosurfaces`, `kNoSurface`
+    /// for those of other arrays, and coloring.
     index::SurfacesQuery surfaces() const;
+    /// Whether the value there is of the picked surface's array, so that it may be its isovalue.
+    bool is_of_picked(const interaction::MarkedPoint& point) const {
+        return point.array == isosurfaces[picked].array;
+    }
     bool operator==(const ExplorerState&) const = default;
 };
+
+/// The number of a surface's array, as `index::IndexFile::array` takes it; where the file lacks it, that
+/// of the shown array. @param surface number of the surface @param file all its arrays
+std::size_t array_of_surface(const ExplorerState& state, std::size_t surface,
+                             const index::IndexFile& file);
 
 /// The settings of pieces as a query has them.
 index::PieceFilter filter_of(const interaction::ShownPieces& pieces);

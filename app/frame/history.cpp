@@ -72,6 +72,8 @@ std::string surface_words(const ExplorerState& before, const ExplorerState& afte
     const auto differs = [&](auto member) {
         return std::ranges::mismatch(old, now, {}, member, member);
     };
+    if (const auto at = differs(&interaction::Isosurface::array); at.in1 != old.end())
+        return "array of a surface";
     if (const auto at = differs(&interaction::Isosurface::isovalue); at.in1 != old.end())
         return "isovalue " + range_text(at.in1->isovalue, at.in2->isovalue);
     if (const auto at = differs(&interaction::Isosurface::opacity); at.in1 != old.end())

@@ -25,6 +25,13 @@ std::vector<std::size_t> columns_of(const CurveSubject& subject) {
     return columns;
 }
 
+std::string quoted(const std::string& text) {
+    std::string field = "\"";
+    for (const char each : text)
+        field += each == '"' ? std::string("\"\"") : std::string(1, each);
+    return field + '"';
+}
+
 } // namespace
 
 std::size_t numbers_of(const CurveSubject& subject) {
@@ -49,7 +56,10 @@ std::string csv_of(const std::vector<StepCurvePtr>& curves) {
     const CurveSubject& first = curves.front()->subject;
     const std::vector<std::size_t> columns = columns_of(first);
     const std::vector<double>& times = first.array->info().times;
-    std::string text = first.place ? "step,fraction,time" : "step,fraction,time,isovalue";
+    const bool of_several = std::ranges::any_of(
+        curves, [&](const StepCurvePtr& each) { return each->subject.array != first.array; });
+    std::string text = of_several ? "array," : "";
+    text += first.place ? "step,fraction,time" : "step,fraction,time,isovalue";
     const auto out = std::back_inserter(text);
     for (const std::size_t i : columns)
         fmt::format_to(out, ",{}", first.place ? "value" : index::measures()[i].name);
@@ -58,6 +68,8 @@ std::string csv_of(const std::vector<StepCurvePtr>& curves) {
         for (const StepCurvePtr& curve : curves) {
             if (!curve->known[step])
                 continue;
+            if (of_several)
+                text += quoted(curve->subject.array->info().array) + ',';
             fmt::format_to(out, "{},0,{}", step, times[step]);
             if (!first.place)
                 fmt::format_to(out, ",{}", curve->subject.isovalue);

@@ -51,7 +51,8 @@ using StepCurvePtr = std::shared_ptr<const StepCurve>;
 std::size_t numbers_of(const CurveSubject& subject);
 
 /// A table as `isochron measure --csv` prints it, or of a place `step,fraction,time,value`; a row for
-/// each step that is known. @param curves of one array, all of surfaces or all of places
+/// each step that is known. Where the arrays differ, the first column names them.
+/// @param curves all of surfaces or all of places
 std::string csv_of(const std::vector<StepCurvePtr>& curves);
 
 } // namespace isochron::app

@@ -104,7 +104,7 @@ void SurfaceMaker::begin(const ExplorerState& state, std::optional<ColorScale> s
     goes_on_ = true;
     told_ = 0;
     const std::string& chosen = state.pictures.folder;
-    exports_.ask({.array = array_of(file_, file_->array_called(state.array).value_or(0)),
+    exports_.ask({.array = array_of(file_, array_of_surface(state, state.picked, *file_)),
                   .request = shown_request(state, file_, std::move(scale)),
                   .format = index::surface_format(state.pictures.surfaces.format),
                   .folder = chosen.empty() ? folder_ : fs::path(chosen)});

@@ -60,7 +60,8 @@ bool is_left(const index::MeshVertex& vertex, const index::Grid& grid,
 index::ExportRequest shown_request(const ExplorerState& state,
                                    const std::shared_ptr<const index::IndexFile>& file,
                                    std::optional<ColorScale> scale) {
-    const index::IndexFile& array = file->array(file->array_called(state.array).value_or(0));
+    const std::size_t number_of_array = array_of_surface(state, state.picked, *file);
+    const index::IndexFile& array = file->array(number_of_array);
     const index::SeriesInfo& info = array.info();
     const index::SurfaceFormat& format = *index::surface_format(state.pictures.surfaces.format);
     index::ExportRequest request;
@@ -75,13 +76,21 @@ index::ExportRequest shown_request(const ExplorerState& state,
         request.plan.steps = {now.step};
         request.plan.fraction = now.fraction;
     }
-    for (const interaction::Isosurface& surface : state.isosurfaces)
+    std::vector<std::size_t> numbers; // in the state
+    for (std::size_t i = 0; i < state.isosurfaces.size(); ++i) {
+        const interaction::Isosurface& surface = state.isosurfaces[i];
+        if (array_of_surface(state, i, *file) != number_of_array)
+            continue;
+        numbers.push_back(i);
         request.surfaces.push_back({.isovalue = surface.isovalue,
                                     .name = surface_name(info, surface.isovalue),
                                     .color = color_bytes(surface.color),
                                     .opacity = surface.opacity});
+    }
     PercentileRange none;
-    if (!scale)
+    if (!state.isosurfaces[state.picked].of_shown_array())
+        scale.reset(); // only surfaces of the shown array are colored by values
+    else if (!scale)
         scale = color_scale(state, *file, {}, none);
     const bool by_crossing = state.coloring.by == interaction::ColorBy::first_crossing;
     if (scale && !(by_crossing && index::has_wide_ids(info.grid))) {
@@ -102,14 +111,13 @@ index::ExportRequest shown_request(const ExplorerState& state,
     if (!state.pictures.surfaces.clipped)
         cuts.clear();
     if ((!cuts.empty() || !state.pieces.all()) && !format.of_cells)
-        request.reshape = [cuts, grid = info.grid, surfaces = state.isosurfaces,
+        request.reshape = [cuts, grid = info.grid, surfaces = state.isosurfaces, numbers,
                            pieces = filter_of(state.pieces), complete = index::is_complete(array)](
                               index::CellMesh& mesh, const index::Query& query, const auto&) {
             const auto surface =
-                std::ranges::find(surfaces, query.isovalue, &interaction::Isosurface::isovalue);
-            index::keep(mesh,
-                        index::kept_pieces(mesh, grid, complete, pieces,
-                                           static_cast<std::size_t>(surface - surfaces.begin())));
+                std::ranges::find(numbers, query.isovalue,
+                                  [&](std::size_t number) { return surfaces[number].isovalue; });
+            index::keep(mesh, index::kept_pieces(mesh, grid, complete, pieces, *surface));
             if (!cuts.empty())
                 index::keep_triangles(mesh, [&](const index::MeshVertex& vertex) {
                     return std::ranges::all_of(

@@ -32,7 +32,8 @@ std::array<std::uint8_t, 3> color_at(const std::vector<glm::vec3>& map, double s
 bool is_left(const index::MeshVertex& vertex, const index::Grid& grid,
              const interaction::ClipPlane& plane);
 
-/// What the state shows: its surfaces with their colors, at its moment or at all steps of its range,
+/// What the state shows: its surfaces of the picked one's array with their colors, at its moment or at
+/// all steps of its range,
 /// in its format and colors, cut by its clip plane. On a grid whose ids are wide, colors by time of
 /// first crossing are those of the surfaces.
 /// @param file all its arrays

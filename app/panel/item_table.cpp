@@ -57,14 +57,16 @@ auto& surfaces(const PanelModel& model, Commands& commands) {
 }
 
 std::string surface_words(const PanelModel& model, std::size_t i) {
-    return fmt::format("{} {}", model.info.array,
-                       with_unit(model.asked.isosurfaces[i].isovalue, model.info.value_unit));
+    const index::SeriesInfo& info = model.info_of(i);
+    return fmt::format("{} {}", info.array,
+                       with_unit(model.asked.isosurfaces[i].isovalue, info.value_unit));
 }
 
 Item surface_item(const PanelModel& model, std::size_t i) {
     const interaction::Isosurface& surface = model.asked.isosurfaces[i];
-    return {.words = model.info.array,
-            .value = with_unit(surface.isovalue, model.info.value_unit),
+    const index::SeriesInfo& info = model.info_of(i);
+    return {.words = info.array,
+            .value = with_unit(surface.isovalue, info.value_unit),
             .name = fmt::format("{}", i + 1),
             .shown = surface.opacity > 0,
             .picked = model.asked.isosurfaces.size() > 1 && model.asked.picked == i,

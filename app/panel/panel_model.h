@@ -9,6 +9,7 @@
 #include "app/frame/profile.h"
 #include "app/frame/step_curve.h"
 #include "index/extraction/extraction.h"
+#include "index/file/index_file.h"
 #include "index/file/read_use.h"
 #include "interaction/control_context.h"
 #include "interaction/input/actions.h"
@@ -73,6 +74,12 @@ struct PanelArrays {
     std::function<interaction::Commands(std::size_t)> way_to; ///< shows an array, by number
     std::span<const std::string> color_names = {};            ///< names of the arrays to color by
     std::size_t color = 0; ///< number of the array whose values are the colors, or would be
+    /// The array of each surface; null, and of those behind the last: the one that is shown.
+    std::vector<const index::IndexFile*> of_surfaces{};
+
+    const index::IndexFile* of(std::size_t surface) const {
+        return surface < of_surfaces.size() ? of_surfaces[surface] : nullptr;
+    }
 };
 
 /// The color scale, and the maps that it may have.
@@ -190,6 +197,16 @@ struct PanelModel {
     std::optional<glm::vec2> told_at{};
     /// The place on a surface under the cursor; may be empty.
     std::function<std::optional<interaction::Pointed>()> pointed{};
+
+    /// The array of a surface, and what is known of its values.
+    const index::SeriesInfo& info_of(std::size_t surface) const {
+        return arrays.of(surface) ? arrays.of(surface)->info() : info;
+    }
+    const index::IndexStats& stats_of(std::size_t surface) const {
+        return arrays.of(surface) ? arrays.of(surface)->stats() : stats;
+    }
+    const index::SeriesInfo& picked_info() const { return info_of(asked.picked); }
+    const index::IndexStats& picked_stats() const { return stats_of(asked.picked); }
 };
 
 /// What the user asks for that no command is for.

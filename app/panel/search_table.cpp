@@ -73,6 +73,9 @@ constexpr OtherNames kOtherNames[] = {
      "add isosurface, second surface, second isosurface, another contour, two levels, "
      "multiple contours, nested surfaces, new surface, duplicate surface, more "
      "surfaces, several isovalues"},
+    {"surface_of_array", "second array, overlay array, surface of another array, two variables, two "
+                             "arrays, second variable, second field, another quantity, combine arrays, "
+                             "compare variables, multivariate"},
     {"remove_surface", "delete surface, delete contour, remove isosurface"},
     {"hide_surface", "show surface, visibility, visible, eye, toggle surface, hide contour, "
                      "display surface"},
@@ -522,7 +525,8 @@ Commands with_picked(const PanelModel& model, const Change& change) {
 void add_surfaces(Lines& lines) {
     const PanelModel& model = lines.model();
     const auto& surfaces = model.asked.isosurfaces;
-    const std::string& unit = model.info.value_unit;
+    const std::string& unit = model.picked_info().value_unit;
+    const index::IndexStats& stats = model.picked_stats();
     const auto with_opacity = [&model](double opacity) {
         return with_picked(model, [opacity](interaction::Isosurface& surface) {
             surface.opacity = static_cast<float>(opacity);
@@ -534,8 +538,8 @@ void add_surfaces(Lines& lines) {
         effect.commands.isovalue = number;
         return effect;
     };
-    if (model.stats.low < model.stats.high && !model.stats.histogram.empty()) {
-        const double usual = quantile(model.stats, kFirstQuantile);
+    if (stats.low < stats.high && !stats.histogram.empty()) {
+        const double usual = quantile(stats, kFirstQuantile);
         SearchLine& line = lines.add({.name = "usual_isovalue",
                                       .words = "isovalue: the usual one of these values",
                                       .value = with_unit(usual, unit)});
@@ -563,6 +567,12 @@ void add_surfaces(Lines& lines) {
                    .words = "add another surface",
                    .value = fmt::format("{} shown", surfaces.size()),
                    .commands = with_another(model)});
+    for (std::size_t i = 0; i < model.arrays.names.size(); ++i)
+        if (i != model.arrays.asked && surfaces.size() < interaction::kMostIsosurfaces)
+            lines.add({.name = "surface_of_array=" + model.arrays.names[i],
+                       .words = "add a surface of another array: " + model.arrays.names[i],
+                       .others = std::string(other_names("surface_of_array")),
+                       .commands = with_surface_of(model, i)});
     if (surfaces.size() > 1)
         lines.add({.name = "remove_surface",
                    .words = "remove the surface",
@@ -595,7 +605,7 @@ void add_surfaces(Lines& lines) {
                   .value = words_for_pieces(model)})
             .commands.pieces = interaction::ShownPieces{};
     lines.control("histogram", "histogram of the values",
-                  range_text(model.stats.low, model.stats.high, unit), kSurfaces);
+                  range_text(stats.low, stats.high, unit), kSurfaces);
 }
 
 void add_ghosts(Lines& lines) {

@@ -307,7 +307,7 @@ std::optional<std::size_t> FrameQuality::choose_mesh(MeshesAtHand meshes) {
 void FrameQuality::charge(const DrawLoad& of_cell,
                           std::span<const interaction::Isosurface> surfaces) {
     const auto layers = std::ranges::count_if(surfaces, [](const interaction::Isosurface& surface) {
-        return surface.opacity > 0 && surface.opacity < 1;
+        return surface.of_shown_array() && surface.opacity > 0 && surface.opacity < 1;
     });
     passes_ = static_cast<double>(layers + (interaction::any_is(surfaces, false) ? 1 : 0));
     passes_ = std::max(passes_, 1.0);

@@ -1,6 +1,7 @@
 // Captions of pictures.
 #include "app/scene/caption.h"
 
+#include "app/frame/explorer_state.h"
 #include "app/scene/legend.h"
 #include "app/text.h"
 #include "index/volume/instant_text.h"
@@ -17,18 +18,33 @@ std::string steps_text(index::Instant at) {
                         : fmt::format("step {}", at.step + 1);
 }
 
-std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesInfo& info) {
+std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesInfo& info,
+                         const std::vector<std::string>& further) {
     std::vector<std::string> values;
     for (const double value : shown.isovalues)
-        values.push_back(fmt::format("{:.6g}", value)); // as the panel has it
-    std::string text = fmt::format("{}{}isovalue{} {}{}", info.array,
-                                   info.array.empty() ? "" : ", ", values.size() == 1 ? "" : "s",
-                                   fmt::join(values, ", "), with_space(info.value_unit));
+        if (value != kNoSurface)
+            values.push_back(fmt::format("{:.6g}", value)); // as the panel has it
+    std::vector<std::string> parts;
+    if (!values.empty())
+        parts.push_back(fmt::format("{}{}isovalue{} {}{}", info.array,
+                                    info.array.empty() ? "" : ", ", values.size() == 1 ? "" : "s",
+                                    fmt::join(values, ", "), with_space(info.value_unit)));
+    parts.insert(parts.end(), further.begin(), further.end());
+    std::string text = fmt::format("{}", fmt::join(parts, ", "));
     if (info.steps() > 1)
         text += fmt::format(", at {} ({} of {})",
                             index::instant_text(info.times, shown.instant, info.time_unit),
                             steps_text(shown.instant), info.steps());
     return text;
+}
+
+std::vector<std::string> words_of(const std::vector<ShownFurther>& further) {
+    std::vector<std::string> words;
+    for (const ShownFurther& each : further)
+        words.push_back(fmt::format("{} {}{}", each.values.array,
+                                    with_unit(each.look.isovalue, each.values.unit),
+                                    each.simplified ? ", simplified" : ""));
+    return words;
 }
 
 std::string step_number(index::Instant at) {

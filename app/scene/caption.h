@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/scene/overlay_colors.h"
+#include "app/scene/picture.h"
 #include "index/volume/query.h"
 #include "index/volume/volume_series.h"
 #include "render/passes/text_pass.h"
@@ -12,7 +13,12 @@
 namespace isochron::app {
 
 /// `heart rate, isovalue 8, 12 K, at 0.5 s (step 2 of 6)`.
-std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesInfo& info);
+/// @param further surfaces of other arrays, in words: `temperature 300 K`
+std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesInfo& info,
+                         const std::vector<std::string>& further = {});
+
+/// `temperature 300 K`, for each surface of another array.
+std::vector<std::string> words_of(const std::vector<ShownFurther>& further);
 
 /// `step 2`, or of a moment between two `between steps 2 and 3`: as people count, from 1.
 std::string steps_text(index::Instant at);

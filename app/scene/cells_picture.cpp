@@ -27,6 +27,7 @@ Picture without_lines(Picture picture) {
     picture.veil = {};
     picture.values = {};
     picture.ghosts.clear();
+    std::erase_if(picture.further, [](const ShownFurther& each) { return each.look.opacity < 1; });
     picture.bounding_box = false;
     picture.orientation = false;
     picture.caption.clear();

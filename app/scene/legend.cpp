@@ -90,7 +90,7 @@ void write_scale(const ColorScale& scale, Layout& layout) {
 }
 
 bool is_seen(const interaction::Isosurface& surface) {
-    return surface.opacity > 0;
+    return surface.of_shown_array() && surface.opacity > 0;
 }
 
 void write_surfaces(const Legend& legend, Layout& layout) {
@@ -103,16 +103,16 @@ void write_surfaces(const Legend& legend, Layout& layout) {
         layout.write(with_unit(surface.isovalue, legend.value_unit), {kBarWidth + 0.7f, y});
         y += 1.3f;
     }
-    if (!legend.scales.empty())
+    if (!legend.scales.empty() || !legend.further.empty())
         layout.write(legend.array, {0.0f, y});
 }
 
-/// The latest on top.
-void write_ghosts(const std::vector<LegendLine>& ghosts, Layout& layout) {
+/// The last one on top.
+void write_lines(const std::vector<LegendLine>& lines, Layout& layout) {
     float y = layout.top() + (layout.top() > 0.0f ? 1.0f : 0.5f);
-    for (const LegendLine& ghost : ghosts) {
-        layout.fill_rimmed({0.0f, y - 0.4f}, {kBarWidth, 0.8f}, glm::vec4(ghost.color, 1.0f));
-        layout.write(ghost.words, {kBarWidth + 0.7f, y});
+    for (const LegendLine& line : lines) {
+        layout.fill_rimmed({0.0f, y - 0.4f}, {kBarWidth, 0.8f}, glm::vec4(line.color, 1.0f));
+        layout.write(line.words, {kBarWidth + 0.7f, y});
         y += 1.3f;
     }
 }
@@ -133,15 +133,17 @@ float line_scale(const glm::ivec2& picture, float share) {
 
 std::vector<render::ScreenQuad> legend_quads(const Legend& legend, const render::TextPass& text,
                                              const glm::ivec2& picture, float share) {
-    const bool several = std::ranges::count_if(legend.surfaces, is_seen) > 1;
-    if (legend.scales.empty() && !several && legend.ghosts.empty())
+    const auto seen = std::ranges::count_if(legend.surfaces, is_seen);
+    const bool several = seen > 1 || (seen == 1 && !legend.further.empty());
+    if (legend.scales.empty() && !several && legend.further.empty() && legend.ghosts.empty())
         return {};
     Layout layout(text, picture, legend.overlay, share);
     for (const ColorScale& scale : legend.scales)
         write_scale(scale, layout);
     if (several)
         write_surfaces(legend, layout);
-    write_ghosts(legend.ghosts, layout);
+    write_lines(legend.further, layout);
+    write_lines(legend.ghosts, layout);
     return layout.finish();
 }
 

@@ -31,7 +31,8 @@ struct Legend {
     bool colored = false;           ///< surfaces are colored by the first of them
     OverlayColors overlay{};
     std::string array{}; ///< that has the isovalues; stands over them where the scale is another's
-    std::vector<LegendLine> ghosts{}; ///< by time
+    std::vector<LegendLine> further{}; ///< surfaces of other arrays
+    std::vector<LegendLine> ghosts{};  ///< by time
 };
 
 /// Height of text in a picture [pixel], a whole number.

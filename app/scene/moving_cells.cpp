@@ -30,7 +30,7 @@ void leave_out(render::CellAppearance& appearance, std::size_t surface) {
 
 /// Whether what stands beside the cells has written depths.
 bool depths_beside(const Picture& picture) {
-    return !picture.slices.empty() || !picture.beside.empty();
+    return !picture.slices.empty() || !picture.beside.empty() || !picture.further.empty();
 }
 
 bool has_several_samples(const render::Gl& gl) {

@@ -78,6 +78,17 @@ struct ShownGhost {
     bool operator==(const ShownGhost&) const = default;
 };
 
+/// A surface of another array than the shown one, and how it is shown.
+struct ShownFurther {
+    index::InstantSurfacesPtr surfaces; ///< with this one alone, in its place
+    interaction::Isosurface look;       ///< with the isovalue that it has
+    ShownValues values;
+    bool simplified = false; ///< also at rest
+    bool operator==(const ShownFurther&) const = default;
+
+    const index::CellMeshPtr& mesh() const { return surfaces->meshes.back(); } ///< null: no cells
+};
+
 /// The place that a step of a story is about, and what stands beside it.
 struct ToldPlace {
     glm::dvec3 place{0.0}; ///< physical space
@@ -113,6 +124,7 @@ struct Picture {
     std::vector<ShownSlice> slices;     ///< beside them
     std::vector<ShownTriangles> beside; ///< beside them, too
     std::vector<ShownGhost> ghosts;     ///< beside them, by time
+    std::vector<ShownFurther> further;  ///< beside them: those of `isosurfaces` of other arrays
     interaction::Look look;
     bool transparent = false;        ///< nothing is drawn behind the data, whatever `look` says
     std::optional<ColorScale> scale; ///< empty: colors tell surfaces apart

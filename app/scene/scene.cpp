@@ -117,6 +117,14 @@ OverlayColors overlay_of(const Picture& picture) {
     return overlay_colors_on(picture.look.background);
 }
 
+std::vector<LegendLine> lines_of_further(const Picture& picture) {
+    std::vector<LegendLine> lines;
+    const std::vector<std::string> words = words_of(picture.further);
+    for (std::size_t i = 0; i < words.size(); ++i)
+        lines.push_back({picture.further[i].look.color, words[i]});
+    return lines;
+}
+
 render::BoxLines box_in(const render::View& view, const Picture& picture,
                         const render::Placement& placement) {
     const glm::vec4 eye(view.eye_in_room(), 1.0f);
@@ -132,8 +140,10 @@ render::BoxLines box_in(const render::View& view, const Picture& picture,
 
 std::vector<LegendLine> lines_of_ghosts(const Picture& picture) {
     std::vector<LegendLine> lines;
-    const auto seen = std::ranges::find_if(picture.isosurfaces,
-                                           [](const auto& surface) { return surface.opacity > 0; });
+    const auto seen =
+        std::ranges::find_if(picture.isosurfaces, [](const interaction::Isosurface& surface) {
+            return surface.of_shown_array() && surface.opacity > 0;
+        });
     for (const ShownGhost& ghost : picture.ghosts)
         if (seen != picture.isosurfaces.end())
             lines.push_back(
@@ -148,6 +158,7 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
       kept_(gl), shape_(config.rendering.cell_shape),
       cell_pass_(gl, {.shape = shape_}, render::prelude_for(info.grid)), line_pass_(gl),
       slice_pass_(gl, info.grid), triangle_pass_(gl, info.grid), ghost_pass_(gl, info.grid),
+      further_pass_(gl, info.grid), opaque_further_pass_(gl, info.grid, render::GhostKind::opaque),
       text_pass_(gl, room_font), panel_pass_(gl), background_pass_(gl), moving_(gl, info.grid),
       veil_pass_(gl) {
     configured_.linear_light = blends_light(gl, config.rendering.blending);
@@ -171,7 +182,8 @@ std::vector<std::string> Scene::given_up() const {
 render::CellAppearance Scene::appearance_of(const Picture& picture) {
     render::CellAppearance appearance = configured_;
     for (std::size_t i = 0; i < picture.isosurfaces.size(); ++i)
-        appearance.surfaces[i] = {picture.isosurfaces[i].color, picture.isosurfaces[i].opacity};
+        if (picture.isosurfaces[i].of_shown_array()) // the others have no cells
+            appearance.surfaces[i] = {picture.isosurfaces[i].color, picture.isosurfaces[i].opacity};
     appearance.values.reset();
     if (picture.scale)
         appearance.values = value_colors(*picture.scale, map_of(*picture.scale));
@@ -246,6 +258,20 @@ void Scene::draw_ghosts(std::span<const render::View> views, const Picture& pict
             ghost_pass_.draw(view, placement, picture.ghosts.front().opacity, appearance, share);
 }
 
+void Scene::draw_further(std::span<const render::View> views, const Picture& picture,
+                         const render::Placement& placement,
+                         const render::CellAppearance& appearance, bool opaque,
+                         render::TriangleShare share) {
+    std::vector<render::GhostMesh> meshes;
+    for (const ShownFurther& each : picture.further)
+        if (each.mesh() && (each.look.opacity >= 1) == opaque)
+            meshes.push_back({each.mesh(), each.look.color, each.look.opacity});
+    render::GhostPass& pass = opaque ? opaque_further_pass_ : further_pass_;
+    pass.hold(meshes);
+    for (const render::View& view : views)
+        pass.draw(view, placement, 1.0f, appearance, share);
+}
+
 render::Placement Scene::placement_of(const Picture& picture) const {
     return render::Placement::of(info_.grid, matrix(picture.room_from_physical));
 }
@@ -280,6 +306,7 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     using Share = render::TriangleShare;
     const auto beside = [&](bool opaque, Share share) {
         draw_beside(views, picture, placement, appearance, opaque, share);
+        draw_further(views, picture, placement, appearance, opaque, share);
         if (!opaque)
             draw_ghosts(views, picture, placement, appearance, share);
     };
@@ -447,10 +474,10 @@ Scene::CornerWords Scene::words_in_corners(const render::View& view, const Pictu
         for (const ShownSlice& slice : picture.slices)
             if (std::ranges::find(scales, slice.scale) == scales.end())
                 scales.push_back(slice.scale);
-        words.legend = legend_quads({picture.isosurfaces, info_.value_unit, scales,
-                                     picture.scale && picture.surfaces, overlay,
-                                     picture.values.array, lines_of_ghosts(picture)},
-                                    text_pass_, view.size, share);
+        words.legend = legend_quads(
+            {picture.isosurfaces, info_.value_unit, scales, picture.scale && picture.surfaces,
+             overlay, picture.values.array, lines_of_further(picture), lines_of_ghosts(picture)},
+            text_pass_, view.size, share);
     }
     if (picture.orientation)
         words.orientation =

@@ -121,6 +121,10 @@ class Scene {
     void draw_ghosts(std::span<const render::View> views, const Picture& picture,
                      const render::Placement& placement, const render::CellAppearance& appearance,
                      render::TriangleShare share);
+    /// Surfaces of other arrays, opaque or translucent ones.
+    void draw_further(std::span<const render::View> views, const Picture& picture,
+                      const render::Placement& placement, const render::CellAppearance& appearance,
+                      bool opaque, render::TriangleShare share);
     void draw_among_cells(std::span<const render::View> views, const Picture& picture,
                           const render::Placement& placement);
     /// Legend, scale bar with axes, and caption of a view, as far as the picture has them.
@@ -168,7 +172,7 @@ class Scene {
     render::LinePass line_pass_;
     render::SlicePass slice_pass_;
     render::TrianglePass triangle_pass_;
-    render::GhostPass ghost_pass_;
+    render::GhostPass ghost_pass_, further_pass_, opaque_further_pass_;
     render::TextPass text_pass_;
     render::PanelPass panel_pass_;
     render::BackgroundPass background_pass_;

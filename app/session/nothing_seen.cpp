@@ -60,7 +60,8 @@ void NothingSeen::update(const Frame& frame, const Seen& seen) {
         surveyor_.finish();
     }
     why_.reset();
-    if (!alone || !answered || state.playback.playing || state.slices.seen())
+    if (!alone || !answered || state.playback.playing || state.slices.seen() ||
+        !arrays_.further(state).empty())
         return;
     const index::IndexFile& array = arrays_.shown(state);
     PictureFacts facts{.settings = state,

@@ -70,7 +70,7 @@ std::optional<Pointed> Picker::surface_hit(const index::Ray& ray, const Explorer
         return std::nullopt;
     std::optional<Pointed> first;
     double nearest = std::numeric_limits<double>::infinity();
-    const auto meet = [&](const auto& surfaces) {
+    const auto meet = [&](const auto& surfaces, const ShownValues& of = {}) {
         const auto hit = index::first_hit(surfaces, file_->info().grid, *seen,
                                           interaction::visible(state.isosurfaces));
         const auto is_beyond = [&](const ClipPlane& cut) {
@@ -79,13 +79,16 @@ std::optional<Pointed> Picker::surface_hit(const index::Ray& ray, const Explorer
         if (!hit || hit->along >= nearest || std::ranges::any_of(cuts, is_beyond))
             return;
         nearest = hit->along;
-        first = Pointed{{hit->at, surfaces.query.instant, surfaces.query.isovalues[hit->surface]},
+        first = Pointed{{hit->at, surfaces.query.instant, surfaces.query.isovalues[hit->surface],
+                         of.array, of.unit},
                         hit->surface};
     };
     if (shown)
         meet(*shown);
     for (const index::InstantSurfacesPtr& ghost : ghosts_)
         meet(*ghost);
+    for (const ShownFurther& further : further_)
+        meet(*further.surfaces, further.values);
     return first;
 }
 

@@ -3,6 +3,7 @@
 
 #include "app/frame/asker.h"
 #include "app/frame/explorer_state.h"
+#include "app/scene/picture.h"
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extraction.h"
 #include "index/extraction/instant_surfaces.h"
@@ -50,6 +51,9 @@ class Picker {
     /// Sets the ghosts that are shown.
     void set_ghosts(const std::vector<index::InstantSurfacesPtr>& ghosts) { ghosts_ = ghosts; }
 
+    /// Sets the surfaces of other arrays that are shown.
+    void set_further(std::vector<ShownFurther> further) { further_ = std::move(further); }
+
     /// Where a ray first meets a slice, or a visible surface or ghost that is not cut away; empty if
     /// it meets none.
     std::optional<interaction::Pointed> hit_by(const interaction::Pose& ray,
@@ -89,6 +93,7 @@ class Picker {
     std::shared_ptr<const index::IndexFile> file_;
     std::vector<index::SliceValuesPtr> slices_;
     std::vector<index::InstantSurfacesPtr> ghosts_;
+    std::vector<ShownFurther> further_;
     std::string sliced_, sliced_unit_; ///< the array of the slices
     interaction::ButtonLevels before_;
     interaction::Commands found_;

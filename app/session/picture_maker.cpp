@@ -183,6 +183,7 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
         .ghosts =
             shown_ghosts(ghosts_.shown(), state,
                          sets_.shown() ? sets_.shown()->query.instant : frame.report.asked.instant),
+        .further = shown_further(further_.shown(), state, *arrays_.file()),
         .look = state.look,
         .scale = shown_scale(state),
         .bounding_box = state.bounding_box,
@@ -197,6 +198,9 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
                                 ? SessionPanel::kShare
                                 : 0.0f,
                    .text = text_share(state)}};
+    for (interaction::Isosurface& surface : picture.isosurfaces)
+        if (!surface.of_shown_array())
+            surface.isovalue = 0; // `further` has what is drawn
     picture.orientation = on_desktop(picture.audience) && !state.room_panel.shown;
     picture.audience.lifted = lifts_background(frame, picture.audience);
     if (picture.audience.lifted)
@@ -275,7 +279,8 @@ Picture PictureMaker::kept(const Picture& picture,
                        !config_.pictures.only_kept && !outputs_.room() && !outputs_.headset();
     const index::ExtractionPtr& shown = sets_.shown();
     if (shown && (config_.pictures.caption || parts.caption))
-        kept.caption = caption_text(shown->query, arrays_.file()->array(shown->query.array).info());
+        kept.caption = caption_text(shown->query, arrays_.file()->array(shown->query.array).info(),
+                                    words_of(picture.further));
     return kept;
 }
 

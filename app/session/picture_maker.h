@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/choice/frame.h"
+#include "app/choice/further_supply.h"
 #include "app/choice/ghost_supply.h"
 #include "app/choice/model_supply.h"
 #include "app/choice/slice_supply.h"
@@ -24,9 +25,10 @@ class PictureMaker {
     /// All outlive the maker.
     PictureMaker(const Config& config, const ShownArrays& arrays, const CellSets& sets,
                  const Outputs& outputs, const SessionPanel& panel, const Picker& picker,
-                 const SliceSupply& slices, const ModelSupply& models, const GhostSupply& ghosts)
+                 const SliceSupply& slices, const ModelSupply& models, const GhostSupply& ghosts,
+                 const FurtherSupply& further)
         : config_(config), arrays_(arrays), sets_(sets), outputs_(outputs), panel_(panel),
-          picker_(picker), slices_(slices), models_(models), ghosts_(ghosts) {}
+          picker_(picker), slices_(slices), models_(models), ghosts_(ghosts), further_(further) {}
 
     /// The picture of this frame, with the footprint of the last one.
     /// @param seen devices that the views are made from
@@ -78,6 +80,7 @@ class PictureMaker {
     const SliceSupply& slices_;
     const ModelSupply& models_;
     const GhostSupply& ghosts_;
+    const FurtherSupply& further_;
     mutable PercentileRange percentiles_; ///< keeps what it has sorted
     Aids over_;
     Title title_;

@@ -38,8 +38,9 @@ void PieceLister::update(const Frame& frame, const ShownArrays& arrays) {
     if (!order)
         return;
     const std::uint32_t surface = frame.state.picked;
-    const Wanted wanted{arrays.held(frame.state), frame.report.asked.surface(surface),
-                        index::of_surface(frame.report.asked.pieces, surface), surface, *order};
+    const index::Query query{frame.report.asked.instant, frame.state.isosurfaces[surface].isovalue};
+    const Wanted wanted{arrays.held(frame.state, surface), query,
+                        index::of_surface(filter_of(frame.state.pieces), surface), surface, *order};
     if (last_.wanted == wanted || lists_)
         return;
     lists_ = true;

@@ -32,9 +32,9 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
       panel_(config_, outputs_), picker_(file),
       supply_(config_, file, scene_.cells(), std::move(extract),
               render::CellBuffers::wanted_shading(outputs_.gl())),
-      slices_(file), models_(file->name()), ghosts_(file),
+      slices_(file), models_(file->name()), ghosts_(file), further_(file),
       pictures_(config_, arrays_, scene_.cells(), outputs_, panel_, picker_, slices_, models_,
-                ghosts_),
+                ghosts_, further_),
       choice_(config_, outputs_, log_, scene_, supply_, pictures_),
       partial_(scene_, outputs_, choice_.quality()), samples_(scene_, outputs_, choice_.quality()),
       nothing_(arrays_, outputs_) {
@@ -56,7 +56,14 @@ std::string Session::drawing() const {
 void Session::set_state(const ExplorerState& state) {
     expect_array(state.array);
     state_ = state;
+    show_messages(arrays_.settle(state_));
     picker_.set_file(arrays_.held(state_));
+}
+
+void Session::set_home(const ExplorerState& home) {
+    home_ = home;
+    arrays_.settle(home_);
+    state_ = home_;
 }
 
 void Session::grow(std::shared_ptr<const index::IndexFile> file) {
@@ -64,6 +71,7 @@ void Session::grow(std::shared_ptr<const index::IndexFile> file) {
     picker_.set_file(arrays_.held(state_));
     slices_.set_file(file);
     ghosts_.set_file(file);
+    further_.set_file(file);
     supply_.set_file(std::move(file));
 }
 
@@ -77,7 +85,7 @@ void Session::grow_with(const Commands& commands) {
 }
 
 interaction::ControlContext Session::control_context(const interaction::Ways& ways) const {
-    const index::IndexFile& array = arrays_.shown(state_);
+    const index::IndexFile& array = arrays_.of(state_, state_.picked);
     return {.settings = state_,
             .series = {.low = array.stats().low,
                        .high = array.stats().high,
@@ -455,7 +463,8 @@ PictureNote Session::note() const {
         state.instant = shown->query.instant;
         for (std::size_t i = 0; i < shown->query.isovalues.size() && i < state.isosurfaces.size();
              ++i)
-            state.isosurfaces[i].isovalue = shown->query.isovalues[i];
+            if (state.isosurfaces[i].of_shown_array())
+                state.isosurfaces[i].isovalue = shown->query.isovalues[i];
     }
     note.state = interaction::kept_state(state.as_commands());
     return note;
@@ -466,6 +475,8 @@ void Session::obey(const Commands& commands, const interaction::InputState& inpu
     const ExplorerState before = state_;
     grow_with(commands);
     state_.apply(commands, arrays_.file()->info().steps());
+    if (state_.isosurfaces != before.isosurfaces || state_.array != before.array)
+        show_messages(arrays_.settle(state_));
     if (arrays_.turn(before, state_))
         picker_.set_file(arrays_.held(state_));
     if (times_.at.size() != steps())
@@ -483,6 +494,7 @@ void Session::set_wake(const std::function<void()>& wake) {
     slices_.set_wake(wake);
     models_.set_wake(wake);
     ghosts_.set_wake(wake);
+    further_.set_wake(wake);
     picker_.set_wake(wake);
     nothing_.set_wake(wake);
     curves_.set_wake(wake);
@@ -544,10 +556,13 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
         picker_.set_slices({}, {});
     ghosts_.update(frame, times_.gaps);
     picker_.set_ghosts(ghosts_.shown());
+    further_.update(frame, arrays_.further(state_));
+    picker_.set_further(shown_further(further_.shown(), state_, *arrays_.file()));
     show_messages(supply_.take_messages());
     show_messages(slices_.take_messages());
     show_messages(models_.take_messages());
     show_messages(ghosts_.take_messages());
+    show_messages(further_.take_messages());
     curves_.update(frame, arrays_, supply_.extractor());
     pieces_.update(frame, arrays_);
     panel_.lay_out_room(state_, facts, report.time);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "app/choice/cell_supply.h"
+#include "app/choice/further_supply.h"
 #include "app/choice/ghost_supply.h"
 #include "app/choice/model_supply.h"
 #include "app/choice/partial_pictures.h"
@@ -80,7 +81,7 @@ class Session {
     /// @throws index::Error when the index has no such array
     void expect_array(const std::string& name) const { arrays_.expect(name); }
     const ExplorerState& home() const { return home_; }
-    void set_home(const ExplorerState& home) { state_ = home_ = home; } ///< before the first frame
+    void set_home(const ExplorerState& home); ///< before the first frame
     /// The data with all their arrays.
     const std::shared_ptr<const index::IndexFile>& file() const { return arrays_.file(); }
     /// Continues with the same data that have more steps. The command `steps` makes them visible.
@@ -193,6 +194,8 @@ class Session {
     std::string show_model(const std::filesystem::path& file);
     /// Surfaces of other steps beside those that are shown.
     const GhostSupply& ghosts() const { return ghosts_; }
+    /// Surfaces of other arrays beside those of the shown one.
+    const FurtherSupply& further() const { return further_; }
 
     /// Why the newest query could not be answered; empty when all is well.
     std::string failure() const { return frames_->failure(supply_.extractor()); }
@@ -227,8 +230,10 @@ class Session {
     std::optional<glm::vec2> told_at() const;
     bool fades_to_steps() const;     ///< steps of a story come by a fade
     bool samples_come_later() const; ///< behind what is still to be prepared
-    /// Whether slices or ghosts are still to be made.
-    bool more_comes() const { return slices_.come() || models_.come() || ghosts_.come(); }
+    /// Whether what stands beside the cells is still to be made.
+    bool more_comes() const {
+        return slices_.come() || models_.come() || ghosts_.come() || further_.come();
+    }
     PanelModel panel_model(const FrameReport& report);
     FrameAnswer answer() const;
 
@@ -250,6 +255,7 @@ class Session {
     SliceSupply slices_;
     ModelSupply models_;
     GhostSupply ghosts_;
+    FurtherSupply further_;
     PictureMaker pictures_;
     FramePlanner choice_;
     PartialPictures partial_;

@@ -125,16 +125,17 @@ void SessionCurves::update(const Frame& frame, const ShownArrays& arrays,
     of_mark_.reset();
     only_whole_ = state.room_panel.shown && !frame.sharing.alone();
     if (state.curves.shown && seen) {
-        const std::shared_ptr<const index::IndexFile> array = arrays.held(state);
-        CurveSubject subject{.array = array};
+        const index::SeriesInfo& info = arrays.file()->info();
+        CurveSubject subject{.array = nullptr};
         if (state.clip.shown)
             subject.clip = state.clip;
         if (state.clip_box.shown)
-            subject.box = cells_in(state.clip_box, array->info().grid);
+            subject.box = cells_in(state.clip_box, info.grid);
         if (state.coloring.by == interaction::ColorBy::value &&
-            index::ColorSource::count(*array) > 0)
+            index::ColorSource::count(*arrays.file()) > 0)
             subject.on_surface = color_array(state, *arrays.file());
         for (std::size_t i = 0; i < state.isosurfaces.size(); ++i) {
+            subject.array = arrays.held(state, i);
             subject.isovalue = state.isosurfaces[i].isovalue;
             subject.kept =
                 index::of_surface(filter_of(state.pieces), static_cast<std::uint32_t>(i));
@@ -142,7 +143,9 @@ void SessionCurves::update(const Frame& frame, const ShownArrays& arrays,
                 of_surface_[i] = number_of(subject, wanted.subjects);
         }
         if (const auto place = marked_place(state))
-            of_mark_ = number_of({.array = array, .place = place}, wanted.subjects);
+            of_mark_ =
+                number_of({.array = arrays.called(state.mark.point->array, state), .place = place},
+                          wanted.subjects);
         wanted.at_hand = extractor.at_hand();
     }
     update_profile(frame, arrays,

@@ -53,13 +53,17 @@ ShownArrays::ShownArrays(const Config& config, std::shared_ptr<const index::Inde
 }
 
 PanelArrays ShownArrays::in_panel(const ExplorerState& state) const {
+    std::vector<const index::IndexFile*> of_surfaces;
+    for (std::size_t i = 0; i < state.isosurfaces.size(); ++i)
+        of_surfaces.push_back(number(state, i) == number(state) ? nullptr : &of(state, i));
     return {.names = names_,
             .notes = notes_,
             .lines = lines_,
             .asked = number(state),
             .way_to = [this, &state](std::size_t number) { return way_to(number, state); },
             .color_names = color_names_,
-            .color = color_array(state, *file_)};
+            .color = color_array(state, *file_),
+            .of_surfaces = std::move(of_surfaces)};
 }
 
 std::shared_ptr<const index::IndexFile> ShownArrays::held(const ExplorerState& state) const {
@@ -125,6 +129,38 @@ index::SurfacesQuery ShownArrays::surfaces(const ExplorerState& state) const {
     if (query.coloring == index::CellColoring::value)
         query.colors = static_cast<std::uint32_t>(color_array(state, *file_));
     return query;
+}
+
+std::vector<index::SurfacesQuery> ShownArrays::further(const ExplorerState& state) const {
+    std::vector<index::SurfacesQuery> queries;
+    for (std::size_t i = 0; i < state.isosurfaces.size(); ++i) {
+        const interaction::Isosurface& surface = state.isosurfaces[i];
+        if (surface.of_shown_array() || !(surface.opacity > 0) ||
+            !file_->array_called(surface.array))
+            continue;
+        index::SurfacesQuery& query = queries.emplace_back();
+        query.instant = state.shown_instant();
+        query.isovalues.assign(i, kNoSurface);
+        query.isovalues.push_back(surface.isovalue);
+        query.array = static_cast<std::uint32_t>(number(state, i));
+        query.pieces = filter_of(state.pieces);
+        for (auto* const list : {&query.pieces.only, &query.pieces.hidden})
+            std::erase_if(*list, [i](const index::PieceAt& piece) { return piece.surface != i; });
+    }
+    return queries;
+}
+
+std::vector<std::string> ShownArrays::settle(ExplorerState& state) const {
+    std::vector<std::string> faults;
+    for (interaction::Isosurface& surface : state.isosurfaces) {
+        const auto named = file_->array_called(surface.array);
+        if (!surface.array.empty() && !named)
+            faults.push_back(fmt::format("no surface of array {}, expected {}", surface.array,
+                                         fmt::join(names_, ", ")));
+        else if (named == number(state))
+            surface.array.clear();
+    }
+    return faults;
 }
 
 } // namespace isochron::app

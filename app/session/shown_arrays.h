@@ -49,8 +49,30 @@ class ShownArrays {
     }
     /// This array, sharing the ownership of the file.
     std::shared_ptr<const index::IndexFile> held(const ExplorerState& state) const;
-    /// What is asked for: the state's surfaces, of its arrays.
+    /// What is asked for: the state's surfaces of the shown array.
     index::SurfacesQuery surfaces(const ExplorerState& state) const;
+    /// The state's surfaces of other arrays that are seen: one each, see `surface_of`.
+    std::vector<index::SurfacesQuery> further(const ExplorerState& state) const;
+    /// The number of a surface's array. @param surface number of the surface
+    std::size_t number(const ExplorerState& state, std::size_t surface) const {
+        return array_of_surface(state, surface, *file_);
+    }
+    const index::IndexFile& of(const ExplorerState& state, std::size_t surface) const {
+        return file_->array(number(state, surface));
+    }
+    std::shared_ptr<const index::IndexFile> held(const ExplorerState& state,
+                                                 std::size_t surface) const {
+        return array_of(file_, number(state, surface));
+    }
+    /// The array with this name; the shown one if the name is empty or unknown.
+    std::shared_ptr<const index::IndexFile> called(const std::string& name,
+                                                   const ExplorerState& state) const {
+        const auto named = name.empty() ? std::nullopt : file_->array_called(name);
+        return named ? array_of(file_, *named) : held(state);
+    }
+    /// Gives the surfaces of the shown array no array of their own.
+    /// @return what the user should know of arrays that the data lack
+    std::vector<std::string> settle(ExplorerState& state) const;
 
     /// @param name of an array of the surfaces; empty: the first
     /// @throws index::Error when the index has no such array

@@ -2,6 +2,7 @@
 #include "index/extraction/instant_surfaces.h"
 
 #include "index/file/step_view.h"
+#include "index/measure/kept_pieces.h"
 #include "index/search/index_search.h"
 #include "index/search/layer_search.h"
 #include "index/search/surface_mesh.h"
@@ -208,6 +209,9 @@ InstantSurfacesPtr instant_surfaces(const std::shared_ptr<const IndexFile>& file
     } catch (const Stopped&) {
         return nullptr;
     }
+    for (std::size_t i = 0; made->level == 0 && !query.pieces.keeps_all() && i < meshes.size(); ++i)
+        keep(meshes[i],
+             kept_pieces(meshes[i], file->info().grid, is_complete(*file), query.pieces, i));
     for (const CellMesh& mesh : meshes)
         made->cells += mesh.cases.size();
     made->edge = simplify(meshes, most, made->level, stop);

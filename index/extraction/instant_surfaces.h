@@ -44,9 +44,10 @@ using InstantSurfacesPtr = std::shared_ptr<const InstantSurfaces>;
 /// The place of a vertex in even coordinates (`Grid::physical_from_index`).
 glm::dvec3 even_place_of(const Grid& grid, const MeshVertex& vertex);
 
-/// Makes the meshes of all isovalues of a query. If there are too many triangles, clusters of cells
-/// become one vertex each (mesh_clusters.h); where there are far too many, a coarser level of detail is
-/// taken first, so that little is read.
+/// Makes the meshes of all isovalues of a query, without the pieces that its filter leaves out: these
+/// are told apart on cells of the volume itself, so of a coarser level all are there. If there are too
+/// many triangles, clusters of cells become one vertex each (mesh_clusters.h); where there are far too
+/// many, a coarser level of detail is taken first, so that little is read.
 /// @param file the array of the query
 /// @return null when stopped @throws Error as `mesh_of` does
 InstantSurfacesPtr instant_surfaces(const std::shared_ptr<const IndexFile>& file,

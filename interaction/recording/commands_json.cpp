@@ -142,7 +142,8 @@ void from_json(const json& value, const Field& field, Similarity& into) {
     members.done({"translation", "rotation", "scale", "exaggeration"});
 }
 
-// Parts. An optional field that is not set is left out, and so is a key's text that is empty.
+// Parts. An optional field that is not set is left out, and so is a text of a key or a surface that is
+// empty.
 
 template <Part T>
 json to_json(const T& part) {
@@ -151,7 +152,8 @@ json to_json(const T& part) {
         if constexpr (requires { value.has_value(); }) {
             if (value)
                 result[field.key] = to_json(*value);
-        } else if constexpr (std::same_as<T, KeyFrame> && std::same_as<V, std::string>) {
+        } else if constexpr ((std::same_as<T, KeyFrame> || std::same_as<T, Isosurface>) &&
+                             std::same_as<V, std::string>) {
             if (!value.empty())
                 result[field.key] = value;
         } else {

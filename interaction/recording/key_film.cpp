@@ -163,9 +163,13 @@ class KeyedSurfaces {
         const auto differs = [&](const KeyFrame& key) {
             return key.array && *key.array != keys.front().array.value_or(scene.start.array);
         };
+        const auto of_others = [&](const std::vector<Isosurface>& surfaces) {
+            return !std::ranges::equal(surfaces, all[0], {}, &Isosurface::array,
+                                       &Isosurface::array);
+        };
         // Values of other arrays are no values between these.
         if (all.empty() || std::ranges::any_of(keys, differs) ||
-            std::ranges::any_of(all, [&](const auto& s) { return s.size() != all[0].size(); }))
+            std::ranges::any_of(all, of_others))
             return;
         for (std::size_t i = 0; i < all[0].size(); ++i) {
             const bool positive =

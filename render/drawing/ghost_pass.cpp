@@ -26,15 +26,10 @@ constexpr GLuint kColorOnMap = 1;        ///< attribute of mesh.vert
 constexpr GLuint kMapUnit = 7,
                  kFieldUnit = 9; ///< texture units of appearance.glsl, surroundings.glsl
 
-LazyProgram ghost_program(const Gl& gl, const index::Grid& grid, const char* way) {
-    const auto of_one_surface = [&gl](GLuint program) {
-        for (std::size_t i = 0; i < index::kMostSurfaces; ++i)
-            gl.ProgramUniform1i(program, kFirstGhostVertices + static_cast<GLint>(i),
-                                std::numeric_limits<GLint>::max());
-    };
+LazyProgram ghost_program(const Gl& gl, const index::Grid& grid, GhostKind kind, const char* way) {
+    const char* const blended = kind == GhostKind::opaque ? "" : "#define BLENDED\n";
     return LazyProgram(gl, {shader_file("mesh.vert"), shader_file("mesh.frag")},
-                       prelude_for(grid) + std::string("#define COLORS\n#define BLENDED\n") + way,
-                       of_one_surface);
+                       prelude_for(grid) + std::string("#define COLORS\n") + blended + way);
 }
 
 /// A coordinate of the map for each of some bands.
@@ -46,10 +41,10 @@ std::uint16_t band_on_map(std::size_t band, std::size_t bands) {
 
 } // namespace
 
-GhostPass::GhostPass(const Gl& gl, const index::Grid& grid)
-    : gl_(&gl), near_(ghost_program(gl, grid, "#define NEAR\n")),
-      small_(ghost_program(gl, grid, "#define LIT_AT_VERTICES\n")), vertex_array_(gl), frame_(gl),
-      vertices_(gl), numbers_(gl), axes_(gl, grid), nothing_around_(gl), orders_(gl) {
+GhostPass::GhostPass(const Gl& gl, const index::Grid& grid, GhostKind kind)
+    : gl_(&gl), kind_(kind), near_(ghost_program(gl, grid, kind, "#define NEAR\n")),
+      small_(ghost_program(gl, grid, kind, "#define LIT_AT_VERTICES\n")), vertex_array_(gl),
+      frame_(gl), vertices_(gl), numbers_(gl), axes_(gl, grid), nothing_around_(gl), orders_(gl) {
     for (int axis = 0; axis < 3; ++axis) {
         const auto along = static_cast<std::size_t>(axis);
         for (std::uint32_t vertex = 0; vertex < grid.vertices[along]; ++vertex)
@@ -118,8 +113,20 @@ const FarOrders::Order& GhostPass::sorted_along(const glm::vec3& ahead,
             before += static_cast<std::uint32_t>(vertices.size());
         }
     };
-    return orders_.along(ahead, 0.5f * glm::dot(ahead, placement.extent),
-                         std::numeric_limits<std::size_t>::max(), measure);
+    if (kind_ == GhostKind::opaque) // one order serves for all views
+        return orders_.along(glm::vec3(0.0f), 0.0f, 0, measure);
+    return orders_.along(ahead, 0.5f * glm::dot(ahead, placement.extent), kMostSorted, measure);
+}
+
+/// Which vertices are whose, where each mesh has an opacity of its own.
+void GhostPass::tell_meshes(GLuint program) const {
+    std::size_t before = 0;
+    for (std::size_t i = 0; i < index::kMostSurfaces; ++i) {
+        const bool own = i < held_.size() && held_.size() <= index::kMostSurfaces;
+        gl_->ProgramUniform1i(program, kFirstGhostVertices + static_cast<GLint>(i),
+                              own ? static_cast<GLint>(before) : std::numeric_limits<GLint>::max());
+        before += own ? held_[i].mesh->vertices.size() : 0;
+    }
 }
 
 void GhostPass::draw(const View& view, const Placement& placement, float opacity,
@@ -128,9 +135,14 @@ void GhostPass::draw(const View& view, const Placement& placement, float opacity
         return;
     CellAppearance look = appearance;
     look.surfaces.fill({.opacity = opacity});
+    if (held_.size() <= look.surfaces.size())
+        for (std::size_t i = 0; i < held_.size(); ++i)
+            look.surfaces[i].opacity = opacity * held_[i].opacity;
     look.values = ValueColors{.map = colors_->name(), .bands = true};
-    FrameBlock frame =
-        frame_of(look, {}, Footprint::mesh, 1, true, placement, nothing_around_, false);
+    FrameBlock frame = frame_of(look, {}, Footprint::mesh, 1, kind_ == GhostKind::translucent,
+                                placement, nothing_around_, false);
+    if (kind_ == GhostKind::opaque) // as meshes of cells
+        frame.linear_light = 1;
     frame.eyes[0] = eye_block(view, placement, look);
     const FarOrders::Order& order =
         sorted_along(rounded_direction(frame.eyes[0].eye_from_index), placement);
@@ -144,14 +156,19 @@ void GhostPass::draw(const View& view, const Placement& placement, float opacity
     axes_.bind();
     set_viewport(*gl_, view);
     const MeshLook size = mesh_look(view, placement, axes_, look);
-    gl_->UseProgram((size.small && !size.near ? small_ : near_).name());
+    const GLuint program = (size.small && !size.near ? small_ : near_).name();
+    tell_meshes(program);
+    gl_->UseProgram(program);
     if (!frame.linear_light)
         gl_->Disable(GL_FRAMEBUFFER_SRGB);
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
-    gl_->DepthMask(GL_FALSE);
+    gl_->DepthMask(kind_ == GhostKind::opaque ? GL_TRUE : GL_FALSE);
     gl_->Disable(GL_CULL_FACE);
-    blend_over(*gl_);
+    if (kind_ == GhostKind::opaque)
+        gl_->Disable(GL_BLEND);
+    else
+        blend_over(*gl_);
     const GLuint array = vertex_array_.name();
     gl_->VertexArrayVertexBuffer(array, 0, vertices_.name(), 0, sizeof(index::MeshVertex));
     gl_->VertexArrayVertexBuffer(array, kColorOnMap, numbers_.name(), 0, sizeof(std::uint16_t));

@@ -147,7 +147,8 @@ void make_all_passes(const Gl& gl) {
     const render::PicturePass pictures(gl);
     const render::SlicePass slices(gl, even), uneven_slices(gl, uneven);
     const render::TrianglePass triangles(gl, even);
-    const render::GhostPass ghosts(gl, even), uneven_ghosts(gl, uneven);
+    const render::GhostPass ghosts(gl, even), uneven_ghosts(gl, uneven),
+        opaque(gl, even, render::GhostKind::opaque), opaque_uneven(gl, uneven, render::GhostKind::opaque);
     const render::SolidPass solids(gl);
     const render::TextPass text(
         gl, render::GlyphAtlas{.size = {1, 1}, .coverage = {0}, .halo = {}, .glyphs = {}});

@@ -81,13 +81,21 @@ std::vector<Choice> choices_of(const PanelModel& model) {
                                                        ? fmt::format(" ({})", other_name)
                                                        : std::string())});
     if (model.curves.mark)
-        choices.push_back({std::string(kMarkCurve), 0, model.info.value_unit,
+        choices.push_back({std::string(kMarkCurve), 0,
+                           model.curves.mark->subject.array->info().value_unit,
                            "value at the mark, and when it crosses the isovalues"});
     const interaction::Ruler* const ruler = model.asked.rulers.chosen();
     if (ruler && ruler->complete())
         choices.push_back({std::string(kProfileCurve), 0, model.info.value_unit,
                            "values along the picked ruler, and where they cross the isovalues"});
     return choices;
+}
+
+/// Its isovalue, with its array where that is not the shown one.
+std::string words_of(const PanelModel& model, std::size_t surface) {
+    const index::SeriesInfo& info = model.info_of(surface);
+    return (model.arrays.of(surface) ? info.array + " " : "") +
+           with_unit(model.asked.isosurfaces[surface].isovalue, info.value_unit);
 }
 
 Shown shown_in(const PanelModel& model) {
@@ -99,8 +107,7 @@ Shown shown_in(const PanelModel& model) {
     const auto& isosurfaces = model.asked.isosurfaces;
     for (std::size_t i = 0; i < std::min(isosurfaces.size(), model.curves.surfaces.size()); ++i)
         if (const StepCurvePtr& curve = model.curves.surfaces[i])
-            shown.surfaces.push_back({curve.get(), line_color(isosurfaces[i]),
-                                      with_unit(isosurfaces[i].isovalue, model.info.value_unit),
+            shown.surfaces.push_back({curve.get(), line_color(isosurfaces[i]), words_of(model, i),
                                       model.asked.picked == i});
     return shown;
 }
@@ -275,7 +282,8 @@ void plot(const PanelModel& model, const Shown& shown, const ImVec2& size, Comma
     if (shown.is_mark()) {
         curves.lines.push_back({values(*model.curves.mark), packed(Ink::text)});
         for (const Drawn& each : shown.surfaces)
-            curves.levels.push_back({each.curve->subject.isovalue, each.color});
+            if (each.curve->subject.array == model.curves.mark->subject.array)
+                curves.levels.push_back({each.curve->subject.isovalue, each.color});
     } else {
         for (const Drawn& each : shown.surfaces)
             curves.lines.push_back({values(*each.curve), each.color, each.picked});
@@ -401,6 +409,8 @@ void crossings(const PanelModel& model, const Shown& shown, const ImVec2& size,
             .first(std::min<std::size_t>(mark.steps(), std::size_t{last_step(model)} + 1));
     int id = 0;
     for (const Drawn& each : shown.surfaces) {
+        if (each.curve->subject.array != mark.subject.array)
+            continue;
         swatch(each.color);
         const std::vector<Crossing> all = crossings_of(steps, each.curve->subject.isovalue);
         fitted_text(all.empty() ? "never crosses " + each.words : "crosses " + each.words,

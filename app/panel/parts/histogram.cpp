@@ -3,6 +3,7 @@
 
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/plot_zoom.h"
+#include "app/panel/parts/rows.h"
 #include "app/panel/parts/theme.h"
 #include "app/scene/ticks.h"
 #include "app/text.h"
@@ -109,11 +110,30 @@ void line_at(const Plot& plot, double value, ImU32 color, bool picked) {
     list.AddCircleFilled({x, plot.low.y + 5.0f}, picked ? 5.0f : 3.5f, color);
 }
 
+/// The array, where it is not the shown one, in the upper left corner.
+void name_of_array(const Plot& plot, const PanelModel& model) {
+    constexpr float kSpared = 40.0f,
+                    kBelow = 14.0f; // for the word in the other corner, and handles
+    if (!model.arrays.of(model.asked.picked))
+        return;
+    const float width = plot.high.x - plot.low.x - kSpared;
+    const std::string name = cut_to(model.picked_info().array, width);
+    ImGui::GetWindowDrawList()->AddText({plot.low.x + 6.0f, plot.low.y + kBelow}, packed(Ink::text),
+                                        name.c_str());
+}
+
+/// Surfaces of the picked one's array have lines.
+bool is_in_histogram(const PanelModel& model, std::size_t surface) {
+    return model.arrays.of(surface) == model.arrays.of(model.asked.picked);
+}
+
 /// The surface whose line is nearest to a place and within reach.
 std::optional<std::uint32_t> line_near(const Plot& plot, const PanelModel& model, float x) {
     std::optional<std::uint32_t> nearest;
     float distance = kReach;
     for (std::uint32_t i = 0; i < model.asked.isosurfaces.size(); ++i) {
+        if (!is_in_histogram(model, i))
+            continue;
         const float away = std::abs(plot.x_of(model.asked.isosurfaces[i].isovalue) - x);
         if (away < distance || (away == distance && i == model.asked.picked)) {
             distance = away;
@@ -151,7 +171,8 @@ void lines_behind(const Plot& plot, const PanelModel& model) {
         return;
     const std::size_t surfaces = std::min(shown->isovalues.size(), model.asked.isosurfaces.size());
     for (std::size_t i = 0; i < surfaces; ++i)
-        if (shown->isovalues[i] != model.asked.isosurfaces[i].isovalue) {
+        if (model.asked.isosurfaces[i].of_shown_array() && is_in_histogram(model, i) &&
+            shown->isovalues[i] != model.asked.isosurfaces[i].isovalue) {
             const float x = plot.x_of(shown->isovalues[i]);
             ImGui::GetWindowDrawList()->AddLine({x, plot.low.y + 12.0f}, {x, plot.high.y},
                                                 packed(Ink::dim));
@@ -161,10 +182,12 @@ void lines_behind(const Plot& plot, const PanelModel& model) {
 } // namespace
 
 std::vector<std::uint64_t> column_counts(const PanelModel& model) {
-    const std::vector<std::uint64_t>& bins = model.stats.histogram;
-    const double between = (model.stats.high - model.stats.low) / model.info.scaling.slope;
+    const index::SeriesInfo& info = model.picked_info();
+    const index::IndexStats& stats = model.picked_stats();
+    const std::vector<std::uint64_t>& bins = stats.histogram;
+    const double between = (stats.high - stats.low) / info.scaling.slope;
     const auto bin_count = static_cast<double>(bins.size());
-    if (model.info.type >= index::ValueType::f32 || !(std::abs(between) < bin_count))
+    if (info.type >= index::ValueType::f32 || !(std::abs(between) < bin_count))
         return bins;
     const double wide = bin_count / std::max(1.0, std::round(std::abs(between)));
     std::vector<std::uint64_t> counts;
@@ -197,10 +220,11 @@ void histogram(const PanelModel& model, Commands& commands) {
     float* const seen_low = kept.GetFloatRef(ImGui::GetID("low"), 0.0f);
     float* const seen_high = kept.GetFloatRef(ImGui::GetID("high"), 1.0f);
     Zoom zoom{*seen_low, *seen_high};
+    const index::IndexStats& stats = model.picked_stats();
     const Plot plot{corner,
                     {corner.x + width, corner.y + kPlotHeight},
-                    std::lerp(model.stats.low, model.stats.high, static_cast<double>(zoom.low)),
-                    std::lerp(model.stats.low, model.stats.high, static_cast<double>(zoom.high))};
+                    std::lerp(stats.low, stats.high, static_cast<double>(zoom.low)),
+                    std::lerp(stats.low, stats.high, static_cast<double>(zoom.high))};
     ImGui::InvisibleButton("histogram", {width, kPlotHeight});
     ImGui::SetItemAllowOverlap(); // the word in its corner
     const bool active = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
@@ -213,10 +237,11 @@ void histogram(const PanelModel& model, Commands& commands) {
     lines_behind(plot, model);
     const auto& surfaces = model.asked.isosurfaces;
     for (std::uint32_t i = 0; i < surfaces.size(); ++i)
-        if (i != model.asked.picked)
+        if (i != model.asked.picked && is_in_histogram(model, i))
             line_at(plot, surfaces[i].isovalue, line_color(surfaces[i]), false);
     line_at(plot, model.asked.isovalue(), line_color(surfaces[model.asked.picked]), true);
-    axis(plot, model.info.value_unit);
+    axis(plot, model.picked_info().value_unit);
+    name_of_array(plot, model);
     if (ImGui::IsItemActivated())
         *grabbed = static_cast<int>(line_near(plot, model, pointed).value_or(model.asked.picked));
     if (active && plot.has_span()) {
@@ -226,8 +251,9 @@ void histogram(const PanelModel& model, Commands& commands) {
         commands.isovalue = plot.value_at(pointed);
     }
     if (hovered && plot.has_span())
-        ImGui::SetTooltip("%s\nthe wheel zooms",
-                          with_unit(plot.value_at(pointed), model.info.value_unit).c_str());
+        ImGui::SetTooltip(
+            "%s\nthe wheel zooms",
+            with_unit(plot.value_at(pointed), model.picked_info().value_unit).c_str());
     scale_choice(plot, *logarithmic, zoom);
     *seen_low = zoom.low;
     *seen_high = zoom.high;

@@ -40,7 +40,7 @@ void mark_words(const PanelModel& model, float width, Commands& commands) {
     text(words);
     if (words != all)
         tip(all.c_str());
-    if (point.array.empty()) {
+    if (model.asked.is_of_picked(point)) {
         ImGui::SameLine();
         if (ImGui::Button(kHere))
             commands.isovalue = point.value;

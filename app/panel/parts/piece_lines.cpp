@@ -143,7 +143,7 @@ void list_of_pieces(const PanelModel& model, PanelPages& pages, Commands& comman
              color_of(Ink::dim));
         ImGui::SameLine();
         if (ImGui::Button("copy as CSV"))
-            pages.text = csv_of(*list, model.info);
+            pages.text = csv_of(*list, model.info_of(list->surface));
         tip("the lines of this list for the clipboard; `isochron measure --pieces` writes all");
     }
     ImGui::EndPopup();
@@ -222,12 +222,15 @@ ShownPieces without_surface(ShownPieces pieces, std::uint32_t removed) {
 
 std::optional<PlacedPiece> piece_at_mark(const ExplorerState& state) {
     const auto& mark = state.mark.point;
-    if (!mark || !mark->array.empty())
+    if (!mark)
         return std::nullopt;
     const auto nearest =
         std::ranges::min_element(state.isosurfaces, {}, [&](const interaction::Isosurface& each) {
-            return std::abs(each.isovalue - mark->value);
+            return each.array == mark->array ? std::abs(each.isovalue - mark->value)
+                                             : std::numeric_limits<double>::infinity();
         });
+    if (nearest->array != mark->array)
+        return std::nullopt;
     return PlacedPiece{static_cast<std::uint32_t>(nearest - state.isosurfaces.begin()),
                        mark->position};
 }
@@ -240,6 +243,9 @@ std::string words_for_pieces(const PanelModel& model) {
         return "pieces are being told apart ...";
     if (told.too_many_cells)
         return "too many cells to tell pieces apart: all are shown";
+    const auto& surfaces = model.asked.isosurfaces;
+    if (told.all == 0 && !std::ranges::all_of(surfaces, &interaction::Isosurface::of_shown_array))
+        return {}; // those of other arrays are not counted
     return fmt::format("{} of {} shown", grouped(told.kept), grouped(told.all));
 }
 

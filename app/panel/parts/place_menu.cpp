@@ -47,7 +47,7 @@ bool place_menu(const PanelModel& model, const std::optional<interaction::Pointe
         slices.planes[slices.picked].point = point.position;
         commands.slices = slices;
     }
-    if (ImGui::MenuItem("isovalue here", nullptr, false, place.has_value() && point.array.empty()))
+    if (ImGui::MenuItem("isovalue here", nullptr, false, place && model.asked.is_of_picked(point)))
         commands.isovalue = point.value;
     const bool of_other_step = place && point.instant != model.asked.shown_instant();
     if (of_other_step) {
@@ -55,8 +55,7 @@ bool place_menu(const PanelModel& model, const std::optional<interaction::Pointe
         if (ImGui::MenuItem(words.c_str()))
             show(point.instant, commands);
     }
-    const bool on_surface =
-        place && !place->on_slice && point.array.empty() && !of_other_step;
+    const bool on_surface = place && !place->on_slice && !of_other_step;
     const interaction::PlacedPiece piece{place ? static_cast<std::uint32_t>(place->surface) : 0,
                                          point.position};
     if (ImGui::MenuItem("show this piece alone", nullptr, false, on_surface))

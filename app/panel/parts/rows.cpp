@@ -105,7 +105,7 @@ void row(const char* label, float spared) {
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - spared);
 }
 
-void fitted_text(const std::string& words, float width, const ImVec4& color) {
+std::string cut_to(const std::string& words, float width) {
     std::string shown = words;
     const auto wide = [&] { return ImGui::CalcTextSize(shown.c_str()).x > width; };
     for (std::size_t kept = words.size(); wide() && kept > 1;) {
@@ -114,6 +114,11 @@ void fitted_text(const std::string& words, float width, const ImVec4& color) {
         while (kept > 0 && (static_cast<unsigned char>(words[kept]) & 0xc0) == 0x80);
         shown = words.substr(0, kept) + "...";
     }
+    return shown;
+}
+
+void fitted_text(const std::string& words, float width, const ImVec4& color) {
+    const std::string shown = cut_to(words, width);
     ImGui::TextColored(color, "%s", shown.c_str());
     if (shown != words)
         tip(words.c_str());
@@ -196,10 +201,16 @@ LinePress table_line(bool chosen, float height) {
     return even ? LinePress::twice : LinePress::once;
 }
 
-std::string format_with(const std::string& unit) {
-    std::string format = unit.empty() ? "%.6g" : "%.6g ";
-    for (char c : unit)
-        format += c == '%' ? "%%" : std::string(1, c);
+std::string format_with(const std::string& unit, const std::string& words) {
+    std::string format;
+    const auto add = [&](const std::string& text) {
+        for (const char c : text)
+            format += c == '%' ? "%%" : std::string(1, c);
+    };
+    add(words);
+    format += format.empty() ? "%.6g" : " %.6g";
+    if (!unit.empty())
+        add(" " + unit);
     return format;
 }
 

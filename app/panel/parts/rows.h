@@ -17,6 +17,8 @@ inline constexpr float kLabelColumn = 92.0f; ///< width of the labels, panel pix
 void row(const char* label, float spared = 0.0f);
 /// A row with nothing but text, cut with dots where it is too long; a tip shows all of it.
 void text_row(const char* label, const std::string& words);
+/// Words no wider than `width`, cut with dots.
+std::string cut_to(const std::string& words, float width);
 /// Text no wider than `width`: cut with dots, and then with a tip that shows all of it.
 void fitted_text(const std::string& words, float width, const ImVec4& color);
 
@@ -60,7 +62,8 @@ enum class LinePress { none, once, twice };
 /// @param height panel pixels; 0: that of a line of text
 LinePress table_line(bool chosen, float height = 0.0f);
 
-/// The format of a number with its unit, with the unit's percent signs escaped.
-std::string format_with(const std::string& unit);
+/// The format of a number with its unit, behind words if there are any; percent signs of both are
+/// escaped.
+std::string format_with(const std::string& unit, const std::string& words = {});
 
 } // namespace isochron::app

@@ -30,24 +30,33 @@ using interaction::Isosurface;
 
 constexpr float kSmallIcon = 22.0f, kOpacityField = 54.0f;
 
-/// A new surface: with a color that no other has, and an isovalue of this step's values, see
-/// `further_isovalue`, or else one between the picked one's and the farther end of the range.
-Isosurface another(const PanelModel& model) {
-    const auto& surfaces = model.asked.isosurfaces;
+/// A color that no surface has.
+glm::vec3 free_color(const std::vector<Isosurface>& surfaces) {
     const auto& palette = render::surface_palette();
     const auto free = std::ranges::find_if(palette, [&](const glm::vec3& color) {
         return std::ranges::find(surfaces, color, &Isosurface::color) == surfaces.end();
     });
-    const double low = model.stats.low, high = model.stats.high, picked = model.asked.isovalue();
+    return free == palette.end() ? palette.front() : *free;
+}
+
+/// A new surface of the picked one's array: with a color that no other has, and an isovalue of this
+/// step's values, see `further_isovalue`, or else one between the picked one's and the farther end of
+/// the range.
+Isosurface another(const PanelModel& model) {
+    const auto& surfaces = model.asked.isosurfaces;
+    const Isosurface& like = surfaces[model.asked.picked];
+    const double low = model.picked_stats().low, high = model.picked_stats().high,
+                 picked = like.isovalue;
     const double end = high / 2 - picked / 2 > picked / 2 - low / 2 ? high : low;
     double isovalue = picked / 2 + end / 2;
-    if (model.work.survey) {
+    if (model.work.survey && like.of_shown_array()) {
         std::vector<double> there;
         for (const Isosurface& each : surfaces)
-            there.push_back(each.isovalue);
+            if (each.of_shown_array())
+                there.push_back(each.isovalue);
         isovalue = further_isovalue(*model.work.survey, there.front(), there).value_or(isovalue);
     }
-    return {isovalue, free == palette.end() ? palette.front() : *free, 1.0f};
+    return {isovalue, free_color(surfaces), 1.0f, like.array};
 }
 
 /// What the user did with the list, beside what a row changes in its surface.
@@ -76,13 +85,34 @@ void menu_of_surface(const PanelModel& model, std::uint32_t i, ListChange& chang
     if (ImGui::MenuItem("move this one with keys and wheel", "I", model.asked.picked == i))
         change.picked = i;
     const auto& mark = model.asked.mark.point;
-    if (ImGui::MenuItem("isovalue: the value at the mark", nullptr, false, mark.has_value())) {
+    const bool of_array = mark && mark->array == model.asked.isosurfaces[i].array;
+    if (ImGui::MenuItem("isovalue: the value at the mark", nullptr, false, of_array)) {
         change.picked = i;
         change.isovalue = mark->value;
     }
     if (ImGui::MenuItem("remove", nullptr, false, model.asked.isosurfaces.size() > 1))
         change.removed = i;
     ImGui::EndPopup();
+}
+
+/// Adds a surface of another array beside those of the shown one.
+/// @return number of the array
+std::optional<std::size_t> array_button(const PanelModel& model) {
+    std::optional<std::size_t> chosen;
+    if (model.arrays.names.size() < 2)
+        return chosen;
+    ImGui::SameLine();
+    if (icon_button("add of array", IconPath("O 8 12 5.5 O 16 12 5.5"),
+                    "add a surface of another array to the picture", false, kSmallIcon))
+        ImGui::OpenPopup("arrays");
+    if (!ImGui::BeginPopup("arrays"))
+        return chosen;
+    popup_title("Surface of another array");
+    for (std::size_t i = 0; i < model.arrays.names.size(); ++i)
+        if (i != model.arrays.asked && ImGui::MenuItem(model.arrays.names[i].c_str()))
+            chosen = i;
+    ImGui::EndPopup();
+    return chosen;
 }
 
 void surface_row(const PanelModel& model, std::uint32_t i, Isosurface& surface,
@@ -100,20 +130,27 @@ void surface_row(const PanelModel& model, std::uint32_t i, Isosurface& surface,
     eye_button(i, surface);
     ImGui::SameLine();
     const float gap = ImGui::GetStyle().ItemSpacing.x;
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - kOpacityField - kSmallIcon -
-                            2 * gap);
+    const float width = ImGui::GetContentRegionAvail().x - kOpacityField - kSmallIcon - 2 * gap;
+    ImGui::SetNextItemWidth(width);
     // Beyond half of the doubles' range ImGui gives up.
     constexpr double kMost = std::numeric_limits<double>::max() / 2;
+    const index::SeriesInfo& info = model.info_of(i);
+    const index::IndexStats& stats = model.stats_of(i);
+    const bool own = model.arrays.of(i) != nullptr; // its array is not the shown one
+    const std::string number = " " + with_unit(surface.isovalue, info.value_unit);
+    const float left = width - ImGui::CalcTextSize(number.c_str()).x - gap;
     double value = surface.isovalue;
     if (number_field("##isovalue", value,
-                     {.low = std::clamp(model.stats.low, -kMost, kMost),
-                      .high = std::clamp(model.stats.high, -kMost, kMost),
+                     {.low = std::clamp(stats.low, -kMost, kMost),
+                      .high = std::clamp(stats.high, -kMost, kMost),
                       .bounded = false},
-                     format_with(model.info.value_unit).c_str())) {
+                     format_with(info.value_unit, own ? cut_to(info.array, left) : "").c_str())) {
         change.picked = i;
         change.isovalue = value;
     }
-    tip("isovalue: drag, or click and type (Up, Down)");
+    tip(fmt::format("isovalue{}: drag, or click and type (Up, Down)",
+                    own ? " of " + info.array : "")
+            .c_str());
     ImGui::SameLine();
     ImGui::SetNextItemWidth(kOpacityField);
     share_field("##opacity", surface.opacity);
@@ -129,12 +166,13 @@ void line_on_isovalues(const PanelModel& model) {
     const auto& surfaces = model.asked.isosurfaces;
     const double asked = model.asked.isovalue();
     const float width = ImGui::GetContentRegionAvail().x;
-    if (asked < model.stats.low || asked > model.stats.high)
+    const index::IndexStats& stats = model.picked_stats();
+    if (asked < stats.low || asked > stats.high)
         return fitted_text(
             fmt::format("no surface: the data are {}",
-                        range_text(model.stats.low, model.stats.high, model.info.value_unit)),
+                        range_text(stats.low, stats.high, model.picked_info().value_unit)),
             width, color_of(Ink::warning));
-    if (surfaces.size() < 2)
+    if (std::ranges::count_if(surfaces, &Isosurface::of_shown_array) < 2)
         return text(" ");
     const bool through =
         std::ranges::any_of(surfaces, [](const Isosurface& each) { return each.opacity < 1.0f; });
@@ -166,7 +204,7 @@ void take(const ListChange& change, std::vector<Isosurface>& surfaces, const Exp
 void let_see(std::vector<Isosurface>& surfaces, std::size_t added) {
     for (Isosurface& outer : surfaces) {
         const bool encloses = std::ranges::any_of(surfaces, [&](const Isosurface& inner) {
-            return inner.isovalue > outer.isovalue &&
+            return inner.array == outer.array && inner.isovalue > outer.isovalue &&
                    (&outer == &surfaces[added] || &inner == &surfaces[added]);
         });
         if (encloses)
@@ -180,6 +218,22 @@ Commands with_another(const PanelModel& model) {
     commands.picked = static_cast<std::uint32_t>(surfaces.size());
     surfaces.push_back(another(model));
     let_see(surfaces, surfaces.size() - 1);
+    commands.isosurfaces = surfaces;
+    return commands;
+}
+
+Commands with_surface_of(const PanelModel& model, std::size_t array) {
+    Commands commands;
+    const Commands first = model.arrays.way_to(array); // as it would be shown alone
+    std::vector<Isosurface> surfaces = model.asked.isosurfaces;
+    const auto its = first.isosurfaces.value_or(std::vector<Isosurface>{{}});
+    const auto of_array = std::ranges::find_if(its, &Isosurface::of_shown_array);
+    Isosurface added = of_array == its.end() ? its.front() : *of_array;
+    added.color = free_color(surfaces);
+    added.opacity = kSeenThrough;
+    added.array = model.arrays.names[array];
+    commands.picked = static_cast<std::uint32_t>(surfaces.size());
+    surfaces.push_back(std::move(added));
     commands.isosurfaces = surfaces;
     return commands;
 }
@@ -201,6 +255,7 @@ void surfaces_section(const PanelModel& model, PanelPages& pages, Commands& comm
     take(change, surfaces, model.asked, commands);
     ImGui::BeginDisabled(surfaces.size() >= interaction::kMostIsosurfaces);
     const bool adds = icon_button("add", Icon::add, "add another isosurface", false, kSmallIcon);
+    const auto of_array = array_button(model);
     ImGui::EndDisabled();
     ghost_button(model, commands);
     ImGui::SameLine();
@@ -211,6 +266,8 @@ void surfaces_section(const PanelModel& model, PanelPages& pages, Commands& comm
     ghost_rows(model, commands);
     if (adds)
         interaction::merge(commands, with_another(model));
+    if (of_array)
+        interaction::merge(commands, with_surface_of(model, *of_array));
     piece_lines(model, pages, commands);
 }
 

@@ -24,6 +24,8 @@ inline constexpr float kSeenThrough = 0.45f; ///< opacity of a surface that show
 
 /// Commands that add a surface, which becomes the picked one. There is room for it.
 interaction::Commands with_another(const PanelModel& model);
+/// As `with_another`, of another array than the shown one, translucent. @param array its number
+interaction::Commands with_surface_of(const PanelModel& model, std::size_t array);
 /// Commands that remove one of several surfaces.
 interaction::Commands without_surface(const PanelModel& model, std::uint32_t removed);
 

@@ -75,7 +75,8 @@ TEST(FormatsPage, TellsEveryKeyOfCommandsAndNoOther) {
 
 TEST(FormatsPage, TheKeysOfPartsAreLookedFor) {
     const auto keys = keys_of_commands();
-    EXPECT_EQ(keys.at("isosurfaces"), (std::vector<std::string>{"isovalue", "color", "opacity"}));
+    EXPECT_EQ(keys.at("isosurfaces"),
+              (std::vector<std::string>{"isovalue", "color", "opacity", "array"}));
     EXPECT_EQ(keys.at("mark"), (std::vector<std::string>{"position", "step", "value", "fraction",
                                                          "array", "unit",
                                         "shown"}));

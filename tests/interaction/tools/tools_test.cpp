@@ -118,12 +118,11 @@ TEST(Tools, ADoubleClickBringsThePlaceToTheMiddleOfTheView) {
 TEST(Tools, RulersMeasureInTheDataUnitsAndStayBesideTheNextOnes) {
     ToolDesk desk;
     desk.tap(choice_of(ToolKind::ruler));
-    const auto row = std::ranges::find(tool_table(), ToolKind::ruler, &ToolRow::kind);
-    EXPECT_EQ(row->line(desk.settings), "click two places");
+    EXPECT_EQ(ruler_line(desk.settings), "click two places");
     const glm::dvec3 a(10, 10, 30), b(40, 50, 30), c(40, 10, 30);
     const Rulers& rulers = desk.settings.rulers;
     desk.click(desk.in_room(a));
-    EXPECT_EQ(row->line(desk.settings), "click the other place");
+    EXPECT_EQ(ruler_line(desk.settings), "click the other place");
     ASSERT_EQ(rulers.list.size(), 1u);
     EXPECT_FALSE(rulers.list[0].complete());
     desk.click(desk.in_room(b));

@@ -550,9 +550,9 @@ void add_movie(Command& program) {
                 "steps pass) (default: time)")
         .one_of({"time", "turn", "both"})
         .type_name("FILM");
-    command.flag(
-        "--turn", options->series.turn,
-        "The same as `--film both`. With `--steps 5`, step 5 stands still during the turn");
+    command.flag("--turn", options->series.turn,
+                 "One turn while time plays, as `--film both` makes it. With `--steps 5`, step 5 "
+                 "stands still during the turn");
     command
         .option("--length", options->series.length,
                 "With an index: length of the turn (default: 10)")

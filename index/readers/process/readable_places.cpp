@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
 #include <sys/stat.h>
 
 #include <system_error>
@@ -11,8 +12,12 @@ namespace isochron::index {
 namespace fs = std::filesystem;
 
 ReadablePlaces::Which ReadablePlaces::which(const fs::path& place) {
-    struct stat status {};
-    return ::stat(place.c_str(), &status) == 0 ? Which{status.st_dev, status.st_ino} : Which{};
+    struct statx status{};
+    if (::statx(AT_FDCWD, place.c_str(), 0, STATX_INO | STATX_BTIME, &status) != 0)
+        return {};
+    return {.device = std::uint64_t{status.stx_dev_major} << 32 | status.stx_dev_minor,
+            .number = status.stx_ino,
+            .born = status.stx_btime.tv_sec * 1'000'000'000 + status.stx_btime.tv_nsec};
 }
 
 bool ReadablePlaces::contain_real(const fs::path& real) const {

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <sys/types.h>
-
 namespace isochron::index {
 
 /// Places are only added. A reader knows the places that were there when it started; its fence
@@ -25,10 +23,11 @@ class ReadablePlaces {
     std::uint64_t age() const { return age_; }
 
   private:
-    /// Identifies a file or folder by its inode: one that was removed and made anew is another.
+    /// Identifies a file or folder: one that was removed and made anew is another, though it may have
+    /// the inode's number again. Its time of birth tells where the file system knows that.
     struct Which {
-        dev_t device = 0;
-        ino_t number = 0;
+        std::uint64_t device = 0, number = 0;
+        std::int64_t born = 0; ///< [ns] since 1970
         bool operator==(const Which&) const = default;
     };
     static Which which(const std::filesystem::path& place);

@@ -134,7 +134,7 @@ TEST_F(ExploreTest, PressingOnTheHistogramPicksAnIsovalue) {
     const auto program = explore({"--record", file("walk.jsonl"), "--isovalue", "8"});
     // In so small a window the section opens over the picture. A click before the panel is there
     // opens nothing.
-    screen_.xdotool({"mousemove_relative", "--", "-180", "-115"});
+    screen_.xdotool({"mousemove_relative", "--", "-180", "-83"});
     ASSERT_TRUE(test_support::eventually([&] {
         await_frame();
         await_frame();
@@ -164,7 +164,7 @@ TEST_F(ExploreTest, FromTheConsoleAnOperatorSteersWithThePanelAndKeys) {
         explore({"--config", file("lab.toml"), "--record", file("walk.jsonl"), "--isovalue", "8"});
     screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "console"});
     // The middle of the histogram, below the bar and the data.
-    screen_.xdotool({"mousemove", "1000", "360"});
+    screen_.xdotool({"mousemove", "1000", "421"});
     ASSERT_TRUE(clicks_until("walk.jsonl.part", "\"panel\":{\"isovalue\""));
     // What is drawn need not be on the screen at once.
     EXPECT_TRUE(test_support::eventually([&] {

@@ -5,6 +5,7 @@
 #include "index/readers/process/file_fence.h"
 #include "index/readers/process/process_signs.h"
 #include "index/readers/process/process_text.h"
+#include "index/readers/process/readable_places.h"
 #include "tests/support/eventually.h"
 #include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
@@ -349,6 +350,21 @@ TEST(Readers, AreNotSharedWithAForkOfTheirProcess) {
     EXPECT_EQ(status, 0);
     EXPECT_EQ(running_readers(), readers);
     expect_good(*file);
+}
+
+TEST(ReadablePlaces, KnowAFolderMadeAnewThoughItHasTheNumberOfTheOldOne) {
+    TestFolder folder;
+    const fs::path place = folder.path() / "series";
+    ReadablePlaces places;
+    for (int round = 0; round < 20; ++round) { // file systems give some numbers again at once
+        fs::create_directory(place);
+        EXPECT_FALSE(places.contain(place / "step")) << "the fences of readers know the old one";
+        const std::uint64_t before = places.age();
+        places.add(place);
+        EXPECT_GT(places.age(), before);
+        EXPECT_TRUE(places.contain(place / "step"));
+        fs::remove(place);
+    }
 }
 
 TEST(ProcessSigns, GrowWithWhatAProcessReadsAndTouches) {

@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/system/input_file.h"
+#include "index/system/request_ring.h"
 
 #include <fmt/format.h>
 

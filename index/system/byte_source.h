@@ -1,7 +1,7 @@
 // The interface for reading the bytes of an index: by position, never mapped.
 #pragma once
 
-#include "index/system/request_ring.h"
+#include "index/system/byte_range.h"
 
 #include <atomic>
 #include <cstddef>

@@ -1,6 +1,7 @@
 // Many requests for bytes of files in one call of the system: Linux's io_uring.
 #pragma once
 
+#include "index/system/byte_range.h"
 #include "index/system/descriptor.h"
 
 #include <cstddef>
@@ -11,16 +12,6 @@
 #include <vector>
 
 namespace isochron::index {
-
-/// Some bytes of a file.
-struct ByteRange {
-    std::uint64_t offset = 0, bytes = 0;
-};
-/// Bytes that are to be read, and where to.
-struct RangeRead {
-    std::uint64_t offset = 0;
-    std::span<std::byte> out;
-};
 
 /// A queue of requests that this process shares with the system. For one thread at a time.
 class RequestRing {

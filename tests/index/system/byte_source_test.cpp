@@ -5,6 +5,7 @@
 #include "index/indexing/index_build.h"
 #include "index/system/input_file.h"
 #include "index/system/parallel.h"
+#include "index/system/request_ring.h"
 #include "tests/support/gate.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"

@@ -82,7 +82,7 @@ TEST_F(BenchCommand, MeasuresAGivenIndex) {
 TEST_F(BenchCommand, SaysWhatIsWrong) {
     for (const auto& [arguments, status, what] :
          std::vector<std::tuple<std::vector<std::string>, int, std::string>>{
-             {{},
+             {{"no_command"},
               2,
               "expected index, render, artifacts, between, building, change, motion, "
               "scale"},

@@ -1,10 +1,9 @@
 // Writes fields and rows of CSV.
 #include "app/commands/csv_rows.h"
 
-#include "app/safe_text.h"
+#include "app/csv_field.h"
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 namespace isochron::app {
@@ -12,23 +11,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A field; of a text one line, that spreadsheets of no language part.
 std::string field_of(const Json& value, bool keep_formulas) {
     if (value.is_null())
         return "";
-    if (!value.is_string())
-        return value.dump();
-    std::string text = one_line(value.get<std::string>());
-    const bool is_formula =
-        !text.empty() && std::string_view("=+-@").find(text[0]) != std::string_view::npos;
-    if (is_formula && !keep_formulas)
-        text.insert(0, 1, '\'');
-    if (text.find_first_of(",;\"") == std::string::npos)
-        return text;
-    std::string quoted = "\"";
-    for (const char c : text)
-        quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + '"';
+    return value.is_string() ? csv_field(value.get<std::string>(), keep_formulas) : value.dump();
 }
 
 } // namespace

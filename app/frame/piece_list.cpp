@@ -1,6 +1,8 @@
 // Sorts pieces.
 #include "app/frame/piece_list.h"
 
+#include "app/csv_field.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,8 +47,10 @@ std::string csv_of(const PieceList& list, const index::SeriesInfo& info) {
                : power == 1             ? fmt::format(" [{}]", info.length_unit)
                                         : fmt::format(" [{}^{}]", info.length_unit, power);
     };
-    std::string text = fmt::format("piece,cells,area{0},volume{1},closed,x{2},y{2},z{2}\n", unit(2),
-                                   unit(3), unit(1));
+    std::string text =
+        fmt::format("piece,cells,{},{},closed,{},{},{}\n", csv_field("area" + unit(2)),
+                    csv_field("volume" + unit(3)), csv_field("x" + unit(1)),
+                    csv_field("y" + unit(1)), csv_field("z" + unit(1)));
     for (std::size_t i = 0; i < list.rows.size(); ++i) {
         const index::MeasuredPiece& piece = list.rows[i];
         text += fmt::format("{},{},{},{},{},{},{},{}\n", i, piece.cells, piece.area,

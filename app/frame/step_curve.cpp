@@ -1,6 +1,7 @@
 // Numbers of a surface at each step of a series.
 #include "app/frame/step_curve.h"
 
+#include "app/csv_field.h"
 #include "index/measure/measures.h"
 
 #include <fmt/format.h>
@@ -23,13 +24,6 @@ std::vector<std::size_t> columns_of(const CurveSubject& subject) {
         if (index::measures()[i].unit != index::MeasureUnit::value || subject.on_surface)
             columns.push_back(i);
     return columns;
-}
-
-std::string quoted(const std::string& text) {
-    std::string field = "\"";
-    for (const char each : text)
-        field += each == '"' ? std::string("\"\"") : std::string(1, each);
-    return field + '"';
 }
 
 } // namespace
@@ -69,7 +63,7 @@ std::string csv_of(const std::vector<StepCurvePtr>& curves) {
             if (!curve->known[step])
                 continue;
             if (of_several)
-                text += quoted(curve->subject.array->info().array) + ',';
+                text += csv_field(curve->subject.array->info().array) + ',';
             fmt::format_to(out, "{},0,{}", step, times[step]);
             if (!first.place)
                 fmt::format_to(out, ",{}", curve->subject.isovalue);

@@ -31,7 +31,7 @@ const std::map<std::string, Steps> kOrder{
       {"quality"},
       {"frame"},
       {"config", "command_line"},
-      {"end_in_time", "telling"},
+      {"csv_field", "end_in_time", "telling"},
       {"safe_text", "text", "version"}}},
     {"index",
      {{"extraction", "indexing", "export"},

@@ -3,8 +3,10 @@
 #include "app/session/curve_maker.h"
 
 #include "index/error.h"
+#include "index/indexing/index_build.h"
 #include "index/measure/measures.h"
 #include "tests/support/indexed.h"
+#include "tests/support/memory_series.h"
 #include "tests/support/test_field.h"
 
 #include <gmock/gmock.h>
@@ -219,6 +221,22 @@ TEST_F(CurveMakerTest, HasTheNumbersOfIsochronMeasure) {
         all.push_back(field);
     ASSERT_EQ(all.size(), 12u);
     EXPECT_EQ(std::stod(all[5]), curves[2]->values[1][0]) << "all digits of the area";
+}
+
+TEST(CurveTables, HaveNamesOfFilesThatCommandNoSpreadsheet) {
+    const test_support::TestFolder folder;
+    const index::TestField field({3, 3, 3}, 1, index::ValueType::f32,
+                                 [](double x, double, double, double) { return x; });
+    std::vector<StepCurvePtr> curves;
+    for (const char* name : {"=1+1,\n\"2\"", "plain"}) {
+        index::MemorySeries series(field.view());
+        series.info().array = name;
+        StepCurve curve({index::build_index(series, folder.path() / "a.isochron", {})}, 20, 1);
+        curve.set(0, std::vector<double>(20, 1.0));
+        curves.push_back(std::make_shared<const StepCurve>(std::move(curve)));
+    }
+    EXPECT_THAT(csv_of(curves), HasSubstr("\n\"'=1+1,\\n\"\"2\"\"\",0,0,0,"));
+    EXPECT_THAT(csv_of(curves), HasSubstr("\nplain,0,0,0,"));
 }
 
 class KeptCurvesTest : public CurveMakerTest {

@@ -167,6 +167,9 @@ TEST_P(SessionPieces, AreListedWhileAPanelLooks) {
     EXPECT_GT(listed(PieceOrder{PieceColumn::cells, true}).list->rows[0].centroid[0], 30);
     EXPECT_EQ(csv_of(*list, both->info()).substr(0, 46),
               "piece,cells,area [mm^2],volume [mm^3],closed,x");
+    index::SeriesInfo odd = both->info();
+    odd.length_unit = "a,b";
+    EXPECT_EQ(csv_of(*list, odd).substr(0, 31), "piece,cells,\"area [a,b^2]\",\"vol");
     state.pieces.dust = 500;
     EXPECT_EQ(listed(PieceOrder{}).list->rows.size(), 1u);
     EXPECT_TRUE(listed(PieceOrder{}).come); // as no cells are shown

@@ -19,19 +19,10 @@ bool same_surface(const index::SurfacesQuery& a, const index::SurfacesQuery& b) 
 } // namespace
 
 FurtherSupply::FurtherSupply(std::shared_ptr<const index::IndexFile> file)
-    : file_(std::move(file)),
-      making_(make, [](const Wanted& wanted, const std::string& why, bool canceled) {
-          return Made{wanted.query, nullptr, canceled ? std::string() : why};
-      }) {}
-
-FurtherSupply::Made FurtherSupply::make(const Wanted& wanted, const Asking& asking) {
-    return {wanted.query,
-            index::instant_surfaces(wanted.array, wanted.query, wanted.most, asking.stop),
-            {}};
-}
+    : file_(std::move(file)) {}
 
 void FurtherSupply::take() {
-    for (Made& made : making_.take()) {
+    for (MadeSurfaces& made : making_.take()) {
         makes_.reset();
         if (made.surfaces) {
             kept_.push_back(std::move(made.surfaces));
@@ -49,20 +40,10 @@ void FurtherSupply::take() {
     }
 }
 
-/// With all its triangles, or with as many as may be.
-index::InstantSurfacesPtr FurtherSupply::at_hand(const index::SurfacesQuery& query,
-                                                 std::uint64_t most) const {
-    const auto found = std::ranges::find_if(kept_, [&](const index::InstantSurfacesPtr& kept) {
-        return kept->query == query &&
-               (kept->most == most || (kept->exact() && kept->triangles() <= most));
-    });
-    return found == kept_.end() ? nullptr : *found;
-}
-
-/// That one, or else another one of the query, or else the last one of the surface.
+/// One with as many triangles as may be, or else another one of the query, or else the last one of the surface.
 index::InstantSurfacesPtr FurtherSupply::best(const index::SurfacesQuery& query,
                                               std::uint64_t most) const {
-    if (index::InstantSurfacesPtr there = at_hand(query, most))
+    if (index::InstantSurfacesPtr there = surfaces_among(kept_, query, most))
         return there;
     index::InstantSurfacesPtr last;
     for (const index::InstantSurfacesPtr& kept : kept_)
@@ -73,15 +54,16 @@ index::InstantSurfacesPtr FurtherSupply::best(const index::SurfacesQuery& query,
 }
 
 /// Any of each first, and then each as it is wanted.
-std::optional<FurtherSupply::Wanted>
-FurtherSupply::next(std::span<const index::SurfacesQuery> wished, std::uint64_t most) const {
+std::optional<WantedSurfaces> FurtherSupply::next(std::span<const index::SurfacesQuery> wished,
+                                                  std::uint64_t most) const {
     for (const bool any : {true, false})
         for (const index::SurfacesQuery& query : wished) {
-            const index::InstantSurfacesPtr there = any ? best(query, most) : at_hand(query, most);
+            const index::InstantSurfacesPtr there =
+                any ? best(query, most) : surfaces_among(kept_, query, most);
             if (!(there && there->query == query) &&
                 std::ranges::find(failed_, query) == failed_.end())
-                return Wanted{array_of(file_, query.array), query,
-                              any ? std::min(most, kMostMoving) : most};
+                return WantedSurfaces{array_of(file_, query.array), query,
+                                      any ? std::min(most, kMostMoving) : most};
         }
     return std::nullopt;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/choice/frame.h"
-#include "app/frame/asker.h"
+#include "app/choice/surfaces_asker.h"
 #include "app/scene/picture.h"
 #include "index/extraction/instant_surfaces.h"
 #include "index/file/index_file.h"
@@ -48,32 +48,20 @@ class FurtherSupply {
     std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
   private:
-    struct Wanted {
-        std::shared_ptr<const index::IndexFile> array;
-        index::SurfacesQuery query;
-        std::uint64_t most = 0;
-    };
-    struct Made {
-        index::SurfacesQuery query;
-        index::InstantSurfacesPtr surfaces; ///< null: not made
-        std::string failure;                ///< empty: none
-    };
-    static Made make(const Wanted& wanted, const Asking& asking);
     void take();
-    index::InstantSurfacesPtr at_hand(const index::SurfacesQuery& query, std::uint64_t most) const;
     index::InstantSurfacesPtr best(const index::SurfacesQuery& query, std::uint64_t most) const;
-    std::optional<Wanted> next(std::span<const index::SurfacesQuery> wished,
-                               std::uint64_t most) const;
+    std::optional<WantedSurfaces> next(std::span<const index::SurfacesQuery> wished,
+                                       std::uint64_t most) const;
     void drop_unwished(std::span<const index::SurfacesQuery> wished);
 
     std::shared_ptr<const index::IndexFile> file_;
     std::vector<index::InstantSurfacesPtr> kept_,
         shown_; ///< `kept_`: the last one made is the last
     std::vector<index::SurfacesQuery> failed_;
-    std::optional<Wanted> makes_; ///< what is being made
+    std::optional<WantedSurfaces> makes_; ///< what is being made
     bool come_ = false;
     std::vector<std::string> messages_;
-    Asker<Wanted, Made> making_;
+    SurfacesAsker making_;
 };
 
 /// The further surfaces of a picture. @param file all its arrays

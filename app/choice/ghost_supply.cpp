@@ -66,20 +66,10 @@ std::string ghost_words(std::span<const index::Instant> instants) {
     return fmt::format("ghosts of steps {} and {}", fmt::join(numbers, ", "), last);
 }
 
-GhostSupply::GhostSupply(std::shared_ptr<const index::IndexFile> file)
-    : file_(std::move(file)),
-      making_(make, [](const Wanted& wanted, const std::string& why, bool canceled) {
-          return Made{wanted.query, nullptr, canceled ? std::string() : why};
-      }) {}
-
-GhostSupply::Made GhostSupply::make(const Wanted& wanted, const Asking& asking) {
-    return {wanted.query,
-            index::instant_surfaces(wanted.array, wanted.query, wanted.most, asking.stop),
-            {}};
-}
+GhostSupply::GhostSupply(std::shared_ptr<const index::IndexFile> file) : file_(std::move(file)) {}
 
 void GhostSupply::take() {
-    for (Made& made : making_.take()) {
+    for (MadeSurfaces& made : making_.take()) {
         makes_ = false;
         if (made.surfaces) {
             ++made_;
@@ -104,12 +94,7 @@ void GhostSupply::drop_all() {
 }
 
 index::InstantSurfacesPtr GhostSupply::at_hand(const index::SurfacesQuery& query) const {
-    const auto serves = [&](const index::InstantSurfacesPtr& kept) {
-        return kept->query == query &&
-               (kept->most == most_ || (kept->exact() && kept->triangles() <= most_));
-    };
-    const auto found = std::ranges::find_if(kept_, serves);
-    return found == kept_.end() ? nullptr : *found;
+    return surfaces_among(kept_, query, most_);
 }
 
 std::optional<index::SurfacesQuery>

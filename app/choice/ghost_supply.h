@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/choice/frame.h"
-#include "app/frame/asker.h"
+#include "app/choice/surfaces_asker.h"
 #include "index/extraction/instant_surfaces.h"
 #include "index/file/index_file.h"
 #include "interaction/step_gaps.h"
@@ -60,17 +60,6 @@ class GhostSupply {
     std::uint64_t made() const { return made_; }
 
   private:
-    struct Wanted {
-        std::shared_ptr<const index::IndexFile> array;
-        index::SurfacesQuery query;
-        std::uint64_t most;
-    };
-    struct Made {
-        index::SurfacesQuery query;
-        index::InstantSurfacesPtr surfaces; ///< null: not made
-        std::string failure;                ///< empty: none
-    };
-    static Made make(const Wanted& wanted, const Asking& asking);
     void take();
     void drop_all();
     std::optional<index::SurfacesQuery> next(std::span<const index::SurfacesQuery> queries) const;
@@ -88,7 +77,7 @@ class GhostSupply {
     std::uint64_t made_ = 0;
     bool makes_ = false, come_ = false;
     std::vector<std::string> messages_;
-    Asker<Wanted, Made> making_;
+    SurfacesAsker making_;
 };
 
 /// The ghosts of a picture: colored as their surfaces are, earlier ones bluer, later ones warmer.

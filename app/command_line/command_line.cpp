@@ -28,6 +28,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -176,16 +177,15 @@ bool Option::given() const {
 
 namespace {
 
-constexpr const char* kOfEveryCommand = "Output"; ///< group of options that every command has
+/// The flags that every command has; `set_telling` reads them.
+constexpr std::pair<const char*, const char*> kTelling[] = {
+    {"--json", "Print one JSON object in place of text; its keys: docs/guide/json.md"},
+    {"--quiet", "Print no notes, no progress and no report of files written"},
+    {"--verbose", "Also print on stderr what is opened and what the work took"}};
 
-/// The options that every command has; `set_telling` reads them.
 void add_telling_options(CLI::App& command) {
-    const char* group = kOfEveryCommand;
-    for (const auto& [name, help] :
-         {std::pair<std::string, std::string>{
-              "--json", "Print one JSON object in place of text; its keys: docs/guide/json.md"},
-          {"--quiet", "Print no notes, no progress and no report of files written"},
-          {"--verbose", "Also print on stderr what is opened and what the work took"}})
+    const char* group = "Output";
+    for (const auto& [name, help] : kTelling)
         command.add_flag_callback(name, [] {}, help)->group(group);
     command.set_help_flag("-h,--help", "Print this help")->group(group);
     if (CLI::Option* all = command.get_option_no_throw("--help-all"); all && command.get_parent())
@@ -226,9 +226,9 @@ template <class T>
 Option Command::option(const std::string& names, T& value, const std::string& help) {
     using Value = Taken<T>::Value;
     // A command's own option takes the place of one that every command has.
-    if (CLI::Option* const of_every = app_->get_option_no_throw(names);
-        of_every && of_every->get_group() == kOfEveryCommand)
-        app_->remove_option(of_every);
+    if (std::ranges::find(kTelling, names, &std::pair<const char*, const char*>::first) !=
+        std::end(kTelling))
+        app_->remove_option(app_->get_option(names));
     Option added(*app_->add_option(names, value, help));
     if constexpr (std::is_floating_point_v<Value>)
         added.accepted_by(

@@ -194,6 +194,9 @@ def groups_of(programs, arguments):
             groups.append(Group(program, suite, cases))
     kept = kept_costs()[1]
     groups.sort(key=lambda g: -kept[g.suite].time if g.suite in kept else -1.0 * len(g.cases))
+    if arguments.turn and groups:
+        first = arguments.turn % len(groups)
+        groups = groups[first:] + groups[:first]
     if arguments.shuffle:
         random.Random(arguments.shuffle).shuffle(groups)
         for group in groups:
@@ -223,8 +226,30 @@ running = {}
 guard = threading.Lock()
 
 
+def still_running(session):
+    """Lines about the processes of a session and what they started: number, state, what its threads wait in, command."""
+    found, parents = {}, {}
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            fields = (folder / "stat").read_text().rpartition(")")[2].split()
+            command = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace").strip()
+            waits = [(task / "wchan").read_text() or "0" for task in sorted(folder.glob("task/[0-9]*"))]
+        except OSError:  # it has ended
+            continue
+        pid = int(folder.name)
+        parents[pid] = int(fields[1])
+        found[pid] = (int(fields[3]), f"{pid} {fields[0]} [{' '.join(waits)}] {command or '(ended)'}")
+    def is_of_session(pid):
+        while pid in found:
+            if found[pid][0] == session:
+                return True
+            pid = parents[pid]
+        return False
+    return [line for pid, (_, line) in sorted(found.items()) if is_of_session(pid)]
+
+
 def run_process(program, arguments, output):
-    """Runs a program to its end, or until it prints nothing for PATIENCE.
+    """Runs a program to its end, or until it prints nothing for PATIENCE; then what still runs is added to its output.
 
     Returns the status of the wait and the processor time of it and of what it waited for."""
     process = subprocess.Popen([*program["command"], *arguments], stdout=output, stderr=subprocess.STDOUT,
@@ -241,6 +266,8 @@ def run_process(program, arguments, output):
             size, since = now, time.monotonic()
         elif time.monotonic() - since > PATIENCE:
             hangs = True
+            output.seek(0, os.SEEK_END)
+            output.write("".join(f"runs: {line}\n" for line in still_running(process.pid)).encode())
             os.killpg(process.pid, signal.SIGKILL)
             break
     _, status, used = os.wait4(process.pid, 0)
@@ -470,6 +497,8 @@ def main():
     parser.add_argument("--shuffle", type=int, default=0, metavar="SEED", help="in another order")
     parser.add_argument("--part", default="", metavar="K/N", help="one part of the suites")
     parser.add_argument("--seconds", type=float, default=0, help="no suite begins after so long")
+    parser.add_argument("--turn", type=int, default=0, metavar="N", help="begin with the N-th suite, so that what --seconds "
+                        "leaves out is not always the same")
     parser.add_argument("--patience", type=float, default=PATIENCE, help="a test that prints nothing new for so long hangs")
     parser.add_argument("--check-costs", action="store_true", help="what costs twice its budget fails")
     parser.add_argument("--keep-costs", action="store_true", help="write tests/costs.tsv")

@@ -71,10 +71,12 @@ class Suites(unittest.TestCase):
     def test_a_program_that_fails_after_its_tests_has_failed(self):
         self.assertIn("status 23", self.failures({"A": ""}, status=23)["Suite"])
 
-    def test_a_test_that_hangs_is_ended(self):
+    def test_a_test_that_hangs_is_ended_and_what_still_ran_is_told(self):
         patience, run_suites.PATIENCE = run_suites.PATIENCE, 1
         self.addCleanup(setattr, run_suites, "PATIENCE", patience)
-        self.assertIn("printed nothing", self.failures({"A": "hang", "B": ""})["Suite.A"])
+        told = self.failures({"A": "hang", "B": ""})["Suite.A"]
+        self.assertIn("printed nothing", told)
+        self.assertRegex(told, r"runs: \d+ S \[.*\] .*/program --gtest_filter=Suite.A")
 
     def test_every_program_is_in_one_part_and_what_is_not_built_has_failed(self):
         with tempfile.TemporaryDirectory() as build:
@@ -87,7 +89,7 @@ class Suites(unittest.TestCase):
                 return subprocess.run([run_suites.__file__, build, "threads", *more], capture_output=True, text=True)
             parts = [run("--list-programs", "--programs", f"{k}/2").stdout.split() for k in range(2)]
             self.assertEqual(parts[0] + parts[1], names)
-            ran = run()
+            ran = run("--turn", "3")
             self.assertEqual(ran.returncode, 1)
             self.assertIn("0 passed, 5 failed", ran.stdout)
 

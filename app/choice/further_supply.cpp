@@ -1,6 +1,8 @@
 // Makes surfaces of other arrays beside the frames, and keeps those that may serve again.
 #include "app/choice/further_supply.h"
 
+#include "app/scene/color_scale.h"
+
 #include <algorithm>
 #include <cstddef>
 
@@ -123,6 +125,10 @@ std::vector<ShownFurther> shown_further(const std::vector<index::InstantSurfaces
         shown.look.isovalue = surfaces->query.isovalues.back();
         shown.values = {info.array, info.value_unit, info.type};
         shown.simplified = !surfaces->exact() && surfaces->most == FurtherSupply::kMost;
+        shown.by_values = state.coloring.by == interaction::ColorBy::value &&
+                          surfaces->query.coloring == index::CellColoring::value &&
+                          surfaces->query.colors == color_array(state, file) && shown.mesh() &&
+                          !shown.mesh()->colors.empty();
     }
     return further;
 }

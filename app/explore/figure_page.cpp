@@ -61,6 +61,7 @@ struct DrawnPanel {
     std::optional<ScaleBar> bar;          ///< its pixels are those of the picture
     std::string length_unit, title;
     std::optional<ColorScale> scale;
+    bool by_values = false; ///< surfaces of all arrays have the colors of the scale
     std::vector<interaction::Isosurface> surfaces;
     std::vector<LegendLine> ghosts;         ///< by time
     std::vector<std::string> surface_words; ///< their isovalues, and arrays if these are other ones
@@ -189,6 +190,7 @@ class PanelDrawing {
         drawn.surfaces = state.isosurfaces;
         drawn.ghosts = session.ghost_lines();
         drawn.scale = session.scale();
+        drawn.by_values = state.coloring.by == interaction::ColorBy::value;
         drawn.length_unit = info.length_unit;
         for (std::size_t i = 0; i < state.isosurfaces.size(); ++i) {
             const interaction::Isosurface& surface = state.isosurfaces[i];
@@ -362,7 +364,7 @@ class FigureLayout {
         if (drawn.surfaces.size() > 1)
             for (std::size_t i = 0; i < drawn.surfaces.size(); ++i) {
                 const interaction::Isosurface& surface = drawn.surfaces[i];
-                const bool on_scale = drawn.scale && surface.of_shown_array();
+                const bool on_scale = drawn.scale && (surface.of_shown_array() || drawn.by_values);
                 room.lines.push_back({drawn.surface_words[i],
                                       on_scale ? std::nullopt : std::optional(surface.color)});
             }

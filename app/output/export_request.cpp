@@ -88,11 +88,11 @@ index::ExportRequest shown_request(const ExplorerState& state,
                                     .opacity = surface.opacity});
     }
     PercentileRange none;
-    if (!state.isosurfaces[state.picked].of_shown_array())
-        scale.reset(); // only surfaces of the shown array are colored by values
+    const bool by_crossing = state.coloring.by == interaction::ColorBy::first_crossing;
+    if (by_crossing && !state.isosurfaces[state.picked].of_shown_array())
+        scale.reset(); // only surfaces of the shown array are colored by first crossings
     else if (!scale)
         scale = color_scale(state, *file, {}, none);
-    const bool by_crossing = state.coloring.by == interaction::ColorBy::first_crossing;
     if (scale && !(by_crossing && index::has_wide_ids(info.grid))) {
         std::optional<std::size_t> number;
         if (!by_crossing)

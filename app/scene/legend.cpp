@@ -111,7 +111,8 @@ void write_surfaces(const Legend& legend, Layout& layout) {
 void write_lines(const std::vector<LegendLine>& lines, Layout& layout) {
     float y = layout.top() + (layout.top() > 0.0f ? 1.0f : 0.5f);
     for (const LegendLine& line : lines) {
-        layout.fill_rimmed({0.0f, y - 0.4f}, {kBarWidth, 0.8f}, glm::vec4(line.color, 1.0f));
+        if (line.color)
+            layout.fill_rimmed({0.0f, y - 0.4f}, {kBarWidth, 0.8f}, glm::vec4(*line.color, 1.0f));
         layout.write(line.words, {kBarWidth + 0.7f, y});
         y += 1.3f;
     }

@@ -19,7 +19,7 @@ namespace isochron::app {
 
 /// A line of the legend: a color, and what has it.
 struct LegendLine {
-    glm::vec3 color; ///< sRGB
+    std::optional<glm::vec3> color; ///< sRGB; none: that of its values
     std::string words;
 };
 

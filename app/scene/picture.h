@@ -84,6 +84,7 @@ struct ShownFurther {
     interaction::Isosurface look;       ///< with the isovalue that it has
     ShownValues values;
     bool simplified = false; ///< also at rest
+    bool by_values = false;  ///< its colors are those of the picture's scale, not its own
     bool operator==(const ShownFurther&) const = default;
 
     const index::CellMeshPtr& mesh() const { return surfaces->meshes.back(); } ///< null: no cells

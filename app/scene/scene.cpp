@@ -120,8 +120,12 @@ OverlayColors overlay_of(const Picture& picture) {
 std::vector<LegendLine> lines_of_further(const Picture& picture) {
     std::vector<LegendLine> lines;
     const std::vector<std::string> words = words_of(picture.further);
-    for (std::size_t i = 0; i < words.size(); ++i)
-        lines.push_back({picture.further[i].look.color, words[i]});
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const ShownFurther& each = picture.further[i];
+        lines.push_back(
+            {each.by_values && picture.scale ? std::nullopt : std::optional(each.look.color),
+             words[i]});
+    }
     return lines;
 }
 
@@ -265,7 +269,8 @@ void Scene::draw_further(std::span<const render::View> views, const Picture& pic
     std::vector<render::GhostMesh> meshes;
     for (const ShownFurther& each : picture.further)
         if (each.mesh() && (each.look.opacity >= 1) == opaque)
-            meshes.push_back({each.mesh(), each.look.color, each.look.opacity});
+            meshes.push_back({each.mesh(), each.look.color, each.look.opacity,
+                              each.by_values && picture.scale.has_value()});
     render::GhostPass& pass = opaque ? opaque_further_pass_ : further_pass_;
     pass.hold(meshes);
     for (const render::View& view : views)

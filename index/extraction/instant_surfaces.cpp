@@ -1,12 +1,14 @@
 // Makes the triangles of an instant's surfaces, and simplifies them where there are too many.
 #include "index/extraction/instant_surfaces.h"
 
+#include "index/file/color_source.h"
 #include "index/file/step_view.h"
 #include "index/measure/kept_pieces.h"
 #include "index/search/index_search.h"
 #include "index/search/layer_search.h"
 #include "index/search/surface_mesh.h"
 #include "index/surface/mesh_clusters.h"
+#include "index/surface/mesh_colors.h"
 
 #include <glm/common.hpp>
 
@@ -65,7 +67,10 @@ class InstantMeshes {
     InstantMeshes(const std::shared_ptr<const IndexFile>& file, const SurfacesQuery& query,
                   const std::stop_token& stop)
         : file_(file), query_(query), stop_(stop),
-          by_bricks_(file->plan().tiers.has(Tier::bricks)) {}
+          by_bricks_(file->plan().tiers.has(Tier::bricks)) {
+        if (query.coloring == CellColoring::value && query.colors < ColorSource::count(*file))
+            colors_.emplace(*file, query.colors);
+    }
 
     /// The finest level that is expected to have not too many triangles to make: counted from the
     /// coarsest. @return nothing when stopped
@@ -94,10 +99,15 @@ class InstantMeshes {
                 return false;
             if (level > 0)
                 continue;
-            auto made = of_volume.make_packed(query_.surface(i), {}, stop_);
+            MeshWishes wishes;
+            if (colors_)
+                wishes.values = query_.colors;
+            auto made = of_volume.make_packed(query_.surface(i), wishes, stop_);
             if (!made)
                 return false;
             mesh = std::move(*made);
+            if (colors_)
+                color_by_values(mesh, colors_->array().low, colors_->array().high);
         }
         return true;
     }
@@ -119,13 +129,18 @@ class InstantMeshes {
         return cells;
     }
 
+    /// An array that an index only refers to has no coarser levels.
+    VertexColors colors_of_level(unsigned level) const {
+        return {colors_ && colors_->chunks(level) ? &*colors_ : nullptr, false};
+    }
+
     bool make_of_level(const Query& query, unsigned level, CellMesh& mesh) {
         LayerSearch search(file_);
         CellSet cells;
         cells.query = query;
         const StepView at = step(level);
         if (!search.search(at, cells, by_bricks_, has_wide_ids(at.grid()), stop_) ||
-            !search.make_mesh(at, cells, mesh, stop_))
+            !search.make_mesh(at, cells, mesh, stop_, colors_of_level(level)))
             return false;
         for (MeshVertex& vertex : mesh.vertices)
             vertex = in_volume(vertex, file_->info().grid, level);
@@ -136,6 +151,7 @@ class InstantMeshes {
     const SurfacesQuery& query_;
     const std::stop_token& stop_;
     bool by_bricks_;
+    std::optional<ColorSource> colors_;
 };
 
 /// Clusters as small as may be with which there are not too many triangles.

@@ -20,7 +20,7 @@ namespace isochron::index {
 
 /// Constant once it is made.
 struct InstantSurfaces {
-    SurfacesQuery query;             ///< its instant, isovalues and array count
+    SurfacesQuery query;             ///< its instant, isovalues, array and values as colors count
     std::uint64_t most = 0;          ///< triangles that all meshes together were to have at most
     std::vector<CellMeshPtr> meshes; ///< by surface, in the volume's grid; null: it has no cells
     std::uint64_t cells = 0;         ///< active cells of all surfaces, at the level of detail
@@ -45,7 +45,8 @@ using InstantSurfacesPtr = std::shared_ptr<const InstantSurfaces>;
 glm::dvec3 even_place_of(const Grid& grid, const MeshVertex& vertex);
 
 /// Makes the meshes of all isovalues of a query, without the pieces that its filter leaves out: these
-/// are told apart on cells of the volume itself, so of a coarser level all are there. If there are too
+/// are told apart on cells of the volume itself, so of a coarser level all are there. By coloring
+/// `value` the meshes have colors, but for an array that has no values at their level. If there are too
 /// many triangles, clusters of cells become one vertex each (mesh_clusters.h); where there are far too
 /// many, a coarser level of detail is taken first, so that little is read.
 /// @param file the array of the query

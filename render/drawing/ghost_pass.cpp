@@ -59,12 +59,17 @@ GhostPass::GhostPass(const Gl& gl, const index::Grid& grid, GhostKind kind)
     gl.VertexArrayAttribBinding(array, kColorOnMap, kColorOnMap);
 }
 
+bool GhostPass::by_values() const {
+    return std::ranges::all_of(held_, &GhostMesh::by_values);
+}
+
 void GhostPass::hold(std::span<const GhostMesh> ghosts) {
     if (std::ranges::equal(ghosts, held_))
         return;
     const bool same = std::ranges::equal(ghosts, held_, {}, &GhostMesh::mesh, &GhostMesh::mesh);
+    const bool by_values_before = by_values();
     held_.assign(ghosts.begin(), ghosts.end());
-    if (!same)
+    if (!same || by_values() != by_values_before)
         send();
     std::vector<glm::vec3> colors;
     for (const GhostMesh& ghost : held_)
@@ -88,7 +93,10 @@ void GhostPass::send() {
         const auto& own = held_[i].mesh->vertices;
         gl_->NamedBufferSubData(vertices_.name(), static_cast<GLintptr>(numbers.size() * kVertex),
                                 static_cast<GLsizeiptr>(own.size() * kVertex), own.data());
-        numbers.insert(numbers.end(), own.size(), band_on_map(i, held_.size()));
+        if (const auto& colors = held_[i].mesh->colors; by_values())
+            numbers.insert(numbers.end(), colors.begin(), colors.end());
+        else
+            numbers.insert(numbers.end(), own.size(), band_on_map(i, held_.size()));
     }
     gl_->NamedBufferData(numbers_.name(),
                          static_cast<GLsizeiptr>(numbers.size() * sizeof(std::uint16_t)),
@@ -138,7 +146,8 @@ void GhostPass::draw(const View& view, const Placement& placement, float opacity
     if (held_.size() <= look.surfaces.size())
         for (std::size_t i = 0; i < held_.size(); ++i)
             look.surfaces[i].opacity = opacity * held_[i].opacity;
-    look.values = ValueColors{.map = colors_->name(), .bands = true};
+    if (!by_values() || !look.values)
+        look.values = ValueColors{.map = colors_->name(), .bands = true};
     FrameBlock frame = frame_of(look, {}, Footprint::mesh, 1, kind_ == GhostKind::translucent,
                                 placement, nothing_around_, false);
     if (kind_ == GhostKind::opaque) // as meshes of cells
@@ -151,7 +160,7 @@ void GhostPass::draw(const View& view, const Placement& placement, float opacity
         return;
     gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
-    gl_->BindTextureUnit(kMapUnit, colors_->name());
+    gl_->BindTextureUnit(kMapUnit, look.values->map);
     gl_->BindTextureUnit(kFieldUnit, nothing_around_.texture());
     axes_.bind();
     set_viewport(*gl_, view);

@@ -1,4 +1,4 @@
-// Draws meshes of other instants or arrays beside the cells, each of one color, lit as surfaces are.
+// Draws meshes of other instants or arrays beside the cells, each of one color or by values, lit as surfaces are.
 //
 //     pass.hold(ghosts);                                  // all that are drawn from now on
 //     pass.draw(view, placement, opacity, appearance);
@@ -30,6 +30,7 @@ struct GhostMesh {
     index::CellMeshPtr mesh;
     glm::vec3 color{1.0f}; ///< sRGB, 0 to 1
     float opacity = 1.0f;  ///< factor of that of all; where a pass holds more than kMostSurfaces, 1
+    bool by_values = false; ///< the mesh has colors, of the map of the appearance
     bool operator==(const GhostMesh&) const = default;
 };
 
@@ -44,7 +45,8 @@ class GhostPass {
     /// @param grid of all meshes @throws Error when a shader does not compile
     GhostPass(const Gl& gl, const index::Grid& grid, GhostKind kind = GhostKind::translucent);
 
-    /// Sends meshes to the GPU unless they are there. @param ghosts all that are drawn from now on
+    /// Sends meshes to the GPU unless they are there. By values are either all of them or none: while
+    /// some have no values, each has its own color. @param ghosts all that are drawn from now on
     void hold(std::span<const GhostMesh> ghosts);
     /// Draws the triangles of all meshes into the view's viewport of the bound framebuffer, translucent
     /// ones the farthest first along the view's rounded direction (`rounded_direction`). Tests depth; opaque
@@ -58,6 +60,7 @@ class GhostPass {
   private:
     void send();
     void tell_meshes(GLuint program) const;
+    bool by_values() const;
     const FarOrders::Order& sorted_along(const glm::vec3& ahead, const Placement& placement);
 
     const Gl* gl_;
@@ -66,7 +69,7 @@ class GhostPass {
     std::array<std::vector<float>, 3> places_;
     LazyProgram near_, small_; ///< see `MeshLook`
     VertexArray vertex_array_;
-    Buffer frame_, vertices_, numbers_; ///< `numbers_`: which color each vertex has
+    Buffer frame_, vertices_, numbers_; ///< `numbers_`: place of each vertex on the map
     AxisTable axes_;
     Surroundings nothing_around_;
     std::optional<Texture> colors_;

@@ -3,6 +3,7 @@
 #include "app/explore/link_view.h"
 #include "app/loop/replay.h"
 #include "app/output/export_request.h"
+#include "index/extraction/value_in_index.h"
 #include "index/system/links/link.h"
 #include "interaction/recording/commands_json.h"
 #include "tests/app/session/quality_session.h"
@@ -183,6 +184,60 @@ TEST_P(SessionFurther, AreSeenInTheirColorAndHideWhatIsBehindThem) {
     cut.clip_box->shown = true;
     cut.clip_box->high = {2, 2, 2};
     EXPECT_EQ(light(picture(cut)).blue, 0) << "the box cuts it";
+}
+
+TEST_P(SessionFurther, HaveTheColorsOfAnArraysValuesOnThemWhereSurfacesHaveThem) {
+    Config config = small_config(stereo::StereoMode::mono);
+    Session session(config, both_, *context_);
+    const auto picture = [&](Commands commands) {
+        commands.quality = interaction::QualityMode::quality; // one footprint for all pictures
+        frame(session, commands);
+        frame(session);
+        return session.outputs().display().read_window();
+    };
+    interaction::Coloring by_distance{.by = interaction::ColorBy::value};
+    by_distance.array = both_->info().array;
+    const auto colored = [&](const glm::vec3& color, float opacity, Instant at) {
+        Commands commands = of_both(6, 30, opacity);
+        commands.isosurfaces->back().color = color;
+        commands.coloring = by_distance;
+        interaction::merge(commands, at_instant(at));
+        return picture(commands);
+    };
+    const double low = both_->stats().low, high = both_->stats().high;
+    for (const Instant at : {Instant(2), Instant(1, 20'000)}) {
+        colored({0, 0, 1}, 1, at);
+        const auto& made = *session.further().shown().at(0);
+        ASSERT_TRUE(made.meshes.back());
+        const index::CellMesh& mesh = *made.meshes.back();
+        ASSERT_EQ(mesh.colors.size(), mesh.vertices.size());
+        std::vector<glm::dvec3> places;
+        for (const index::MeshVertex& vertex : mesh.vertices)
+            places.push_back(both_->info().grid.physical(index::position_of(vertex)));
+        const std::vector<double> values = index::values_in(*both_, at, places);
+        int distinct = 0;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            EXPECT_NEAR(mesh.colors[i], (values[i] - low) / (high - low) * 65534, 4);
+            distinct += i > 0 && mesh.colors[i] != mesh.colors[0];
+        }
+        EXPECT_GT(distinct, 100);
+    }
+    for (const float opacity : {1.0f, 0.4f}) {
+        const render::Image blue = colored({0, 0, 1}, opacity, Instant(2)),
+                            red = colored({1, 0, 0}, opacity, Instant(2));
+        EXPECT_EQ(blue.rgba, red.rgba)
+            << "a color of its own counts no longer, in the legend either";
+        Commands own = of_both(6, 30, opacity);
+        own.coloring.emplace();
+        EXPECT_NE(picture(own).rgba, blue.rgba);
+    }
+    ExplorerState state = session.state();
+    state.coloring = by_distance;
+    state.isosurfaces = *of_both(6, 30).isosurfaces;
+    state.picked = 1;
+    EXPECT_EQ(shown_request(state, both_).values->array, color_array(state, *both_));
+    state.coloring.by = interaction::ColorBy::first_crossing;
+    EXPECT_FALSE(shown_request(state, both_).values) << "those are of the shown array";
 }
 
 TEST_P(SessionFurther, AreMadeWhileLiveFramesGoOnAndArriveExactly) {

@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/export/exported_step.h"
+#include "index/extraction/profile.h"
 #include "index/file/named_index.h"
 #include "index/search/index_search.h"
 #include "index/search/surface_mesh.h"
@@ -115,7 +116,8 @@ struct Searched {
 Searched searched(const ControlRequest& request,
                   const std::shared_ptr<const index::IndexFile>& file, const ExplorerState& shown) {
     const std::string& name = request.array ? *request.array : shown.array;
-    const bool of_picked = !request.array && !request.isovalue;
+    const bool of_picked =
+        !request.array && !request.isovalue && request.verb != ControlVerb::profile;
     const std::size_t number = of_picked      ? array_of_surface(shown, shown.picked, *file)
                                : name.empty() ? 0
                                               : index::array_number(*file, name);
@@ -191,6 +193,27 @@ ControlAnswer mesh_answer(const std::string& id, const Searched& asked,
     return with_bytes(std::move(line), asked.words, bytes.take());
 }
 
+ControlAnswer profile_answer(const std::string& id, const Searched& asked,
+                             const std::vector<glm::dvec3>& places,
+                             const interaction::Rulers& rulers, const std::stop_token& stop) {
+    const interaction::Ruler* const ruler = places.empty() ? rulers.chosen() : nullptr;
+    if (places.empty() && !(ruler && ruler->complete()))
+        throw index::Error("profile: expected places, or a ruler that the session shows");
+    const index::Profile profile =
+        index::profile_of({asked.array, asked.query.instant, ruler ? ruler->places : places}, stop);
+    const std::vector<double> rows = index::rows_of(profile);
+    Bytes bytes(rows.size() * sizeof(double));
+    for (const double each : rows)
+        bytes.put(each);
+    Json line = answer_to(id, true);
+    line["samples"] = profile.values.size();
+    line["unit"] = asked.array->info().value_unit;
+    line["length_unit"] = asked.array->info().length_unit;
+    Json words = asked.words;
+    words.erase("isovalue");
+    return with_bytes(std::move(line), words, bytes.take());
+}
+
 } // namespace
 
 ControlAnswer refused(const std::string& id, const std::string& why) {
@@ -243,6 +266,8 @@ ControlAnswer searched_answer(const std::string& id, const ControlRequest& reque
                               const std::shared_ptr<const index::IndexFile>& file,
                               const ExplorerState& shown, const std::stop_token& stop) {
     const Searched asked = searched(request, file, shown);
+    if (request.verb == ControlVerb::profile)
+        return profile_answer(id, asked, request.places, shown.rulers, stop);
     return request.verb == ControlVerb::cells ? cells_answer(id, asked, stop)
                                               : mesh_answer(id, asked, stop);
 }

@@ -31,12 +31,12 @@ std::shared_ptr<const std::vector<std::byte>> picture_bytes(const ControlPicture
 /// @param bytes of the picture, which all its answers share
 ControlAnswer picture_answer(const std::string& id, const ControlPicture& picture,
                              std::shared_ptr<const std::vector<std::byte>> bytes);
-/// Answers `cells` or `mesh` by a search of its own, of all cells.
+/// Answers `cells`, `mesh` or `profile` by a search of its own, of all cells.
 ///
 /// Cells: bytes as of `query --ids`. Mesh: the points as three float32 each, as `export` has them,
-/// then as many normals, then the triangles as three uint32 each.
+/// then as many normals, then the triangles as three uint32 each. Profile: `index::rows_of` as float64.
 /// @param shown says what the request does not
-/// @throws index::Error: no such step or array, damage, an answer of more than `kLargestAnswer`;
+/// @throws index::Error: no such step or array, no ruler, damage, an answer of more than `kLargestAnswer`;
 /// Stopped
 ControlAnswer searched_answer(const std::string& id, const ControlRequest& request,
                               const std::shared_ptr<const index::IndexFile>& file,

@@ -72,15 +72,31 @@ interaction::Commands commands_of(const json& value) {
     return commands;
 }
 
-/// What cells and meshes are asked of.
-void take_query(Members& members, ControlRequest& request) {
-    if (const json* isovalue = members.find("isovalue"))
-        request.isovalue = interaction::number(*isovalue, "isovalue");
+/// What is searched: at which step of which array.
+void take_moment(Members& members, ControlRequest& request) {
     if (const json* step = members.find("step"))
         request.step = static_cast<std::uint32_t>(
             interaction::natural(*step, "step", std::numeric_limits<std::uint32_t>::max()));
     if (const json* array = members.find("array"))
         request.array = interaction::text(*array, "array", interaction::kLongestArrayName);
+}
+
+void take_places(Members& members, ControlRequest& request) {
+    const json* const places = members.find("places");
+    if (!places)
+        return;
+    for (const json& place : interaction::list(*places, "places", 2, kMostProfilePlaces)) {
+        glm::dvec3& at = request.places.emplace_back();
+        for (int axis = 0; const json& each : interaction::list(place, "places", 3, 3))
+            at[axis++] = interaction::number(each, "places");
+    }
+}
+
+void say_moment(const ControlRequest& request, json& line) {
+    if (request.step)
+        line["step"] = *request.step;
+    if (request.array)
+        line["array"] = *request.array;
 }
 
 json as_json(const ControlRequest& request) {
@@ -102,10 +118,12 @@ json as_json(const ControlRequest& request) {
     case ControlVerb::mesh:
         if (request.isovalue)
             line["isovalue"] = *request.isovalue;
-        if (request.step)
-            line["step"] = *request.step;
-        if (request.array)
-            line["array"] = *request.array;
+        say_moment(request, line);
+        break;
+    case ControlVerb::profile:
+        for (const glm::dvec3& place : request.places)
+            line["places"].push_back({place.x, place.y, place.z});
+        say_moment(request, line);
         break;
     case ControlVerb::state: break;
     }
@@ -151,8 +169,15 @@ ControlRequest request_from(std::string_view line, std::string& id) {
         break;
     case ControlVerb::cells:
     case ControlVerb::mesh:
-        take_query(members, request);
+        if (const json* isovalue = members.find("isovalue"))
+            request.isovalue = interaction::number(*isovalue, "isovalue");
+        take_moment(members, request);
         members.done({"id", "verb", "isovalue", "step", "array"});
+        break;
+    case ControlVerb::profile:
+        take_places(members, request);
+        take_moment(members, request);
+        members.done({"id", "verb", "places", "step", "array"});
         break;
     }
     return request;

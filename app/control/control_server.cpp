@@ -192,8 +192,7 @@ void ControlServer::obey(Connection& client, const std::string& line) {
 void ControlServer::answer(Connection& client, const ControlRequest& request,
                            const std::string& id) {
     const auto shown = desk_.shown();
-    const bool steers = request.verb == ControlVerb::commands ||
-                        request.verb == ControlVerb::cells || request.verb == ControlVerb::mesh;
+    const bool steers = request.verb == ControlVerb::commands || is_search(request.verb);
     if (options_.only_watches && steers)
         throw interaction::Error("a replay answers state, subscribe and picture alone");
     switch (request.verb) {
@@ -231,7 +230,8 @@ void ControlServer::answer(Connection& client, const ControlRequest& request,
              desk_.want_picture(request.now), id});
         break;
     case ControlVerb::cells:
-    case ControlVerb::mesh: add_search(client, request, id); break;
+    case ControlVerb::mesh:
+    case ControlVerb::profile: add_search(client, request, id); break;
     }
 }
 

@@ -6,9 +6,9 @@
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
 #include "app/frame/piece_list.h"
-#include "app/frame/profile.h"
 #include "app/frame/step_curve.h"
 #include "index/extraction/extraction.h"
+#include "index/extraction/profile.h"
 #include "index/file/index_file.h"
 #include "index/file/read_use.h"
 #include "interaction/control_context.h"
@@ -105,7 +105,7 @@ using interaction::kMarkCurve, interaction::kProfileCurve;
 struct PanelCurves {
     std::vector<StepCurvePtr> surfaces{}; ///< one a surface; null: hidden, or not there
     StepCurvePtr mark{};                  ///< the value at the mark; null: none
-    ProfilePtr profile{};                 ///< the values along the ruler; null: none
+    index::ProfilePtr profile{};          ///< the values along the ruler; null: none
     std::string failure{};                ///< why steps could not be measured; empty: all could
     std::function<void()> save{};         ///< writes them as a table; empty: that is not offered
 };

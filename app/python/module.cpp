@@ -90,8 +90,8 @@ py::tuple as_tuple(Triangles<Number>&& mesh, const WishedOfMesh& wished) {
 
 py::tuple mesh(RunArray& array, std::int64_t step, std::int64_t fraction, double isovalue,
                bool absolute, std::size_t level, bool normals,
-               const std::optional<std::string>& values) {
-    const WishedOfMesh wished{normals, values};
+               const std::optional<std::string>& values, std::uint32_t dust) {
+    const WishedOfMesh wished{normals, values, dust};
     const RunArray::AskedInstant at{step, fraction};
     if (absolute)
         return as_tuple(unlocked([&] { return array.mesh(at, isovalue, level, wished); }), wished);
@@ -266,7 +266,7 @@ std::vector<std::string> names_of(const OpenRun& run) {
 py::tuple measure(RunArray& array, std::int64_t step, std::int64_t fraction, double isovalue,
                   const std::optional<std::string>& on_surface, bool pieces,
                   const std::optional<std::array<std::array<std::uint32_t, 2>, 3>>& crop,
-                  const std::optional<std::array<double, 6>>& clip) {
+                  const std::optional<std::array<double, 6>>& clip, std::uint32_t dust) {
     std::optional<index::CutPlane> plane;
     if (clip)
         plane = {{(*clip)[0], (*clip)[1], (*clip)[2]}, {(*clip)[3], (*clip)[4], (*clip)[5]}};
@@ -274,8 +274,9 @@ py::tuple measure(RunArray& array, std::int64_t step, std::int64_t fraction, dou
     if (crop) // x, y, z: the first and the last
         box = {{(*crop)[0][0], (*crop)[1][0], (*crop)[2][0]},
                {(*crop)[0][1], (*crop)[1][1], (*crop)[2][1]}};
-    index::MeasuredSurface found = unlocked(
-        [&] { return array.measure({step, fraction}, isovalue, on_surface, pieces, box, plane); });
+    index::MeasuredSurface found = unlocked([&] {
+        return array.measure({step, fraction}, isovalue, on_surface, pieces, box, plane, dust);
+    });
     std::vector<double> rows;
     for (const index::MeasuredPiece& piece : found.pieces) {
         rows.insert(rows.end(), {static_cast<double>(piece.triangles), piece.area, piece.volume,
@@ -285,6 +286,18 @@ py::tuple measure(RunArray& array, std::int64_t step, std::int64_t fraction, dou
     }
     const auto count = static_cast<py::ssize_t>(found.pieces.size());
     return py::make_tuple(std::move(found.values), owned(std::move(rows), {count, 14}));
+}
+
+/// Five numbers for each sample, as index::rows_of has them.
+py::array profile(const RunArray& array, std::int64_t step, std::int64_t fraction,
+                  const std::vector<std::array<double, 3>>& places) {
+    std::vector<glm::dvec3> path;
+    for (const auto& [x, y, z] : places)
+        path.emplace_back(x, y, z);
+    std::vector<double> rows =
+        unlocked([&] { return array.profile({step, fraction}, std::move(path)); });
+    const auto samples = static_cast<py::ssize_t>(rows.size() / 5);
+    return owned(std::move(rows), {samples, 5});
 }
 
 std::vector<std::string> measure_names() {
@@ -328,9 +341,10 @@ PYBIND11_MODULE(_native, module) {
         .def("change", &change, "step"_a, "fraction"_a, "isovalue"_a, "to_step"_a, "to_fraction"_a,
              "to_isovalue"_a)
         .def("mesh", &mesh, "step"_a, "fraction"_a, "isovalue"_a, "absolute"_a, "level"_a,
-             "normals"_a, "values"_a)
+             "normals"_a, "values"_a, "dust"_a)
         .def("measure", &measure, "step"_a, "fraction"_a, "isovalue"_a, "on_surface"_a, "pieces"_a,
-             "crop"_a, "clip"_a)
+             "crop"_a, "clip"_a, "dust"_a)
+        .def("profile", &profile, "step"_a, "fraction"_a, "places"_a)
         .def("values", &values, "step"_a, "fraction"_a, "box"_a, "level"_a)
         .def("first_crossings", &first_crossings, "isovalue"_a, "blended"_a)
         .def("description", &description)

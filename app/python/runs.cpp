@@ -4,9 +4,11 @@
 #include "app/indexing/asked_build.h"
 #include "app/indexing/file_patterns.h"
 #include "index/error.h"
+#include "index/extraction/profile.h"
 #include "index/file/color_source.h"
 #include "index/file/index_states.h"
 #include "index/file/named_index.h"
+#include "index/measure/kept_pieces.h"
 #include "index/search/layer_search.h"
 #include "index/system/parallel.h"
 #include "index/system/team.h"
@@ -163,9 +165,13 @@ index::CellMesh RunArray::packed_mesh(const AskedInstant& at, double isovalue, s
     }
     const index::MeshWishes wishes{.values = source_called(wished.values)};
     const auto make = [this] { return std::make_unique<index::SurfaceMeshes>(file_); };
-    return meshes_.with(make, [&](index::SurfaceMeshes& meshes) {
+    index::CellMesh mesh = meshes_.with(make, [&](index::SurfaceMeshes& meshes) {
         return *meshes.make_packed(asked, wishes); // which nobody stops
     });
+    if (wished.dust > 0)
+        index::keep(mesh, index::kept_pieces(mesh, file_->info().grid, index::is_complete(*file_),
+                                             {.dust = wished.dust}, 0));
+    return mesh;
 }
 
 Triangles<float> RunArray::mesh_from_origin(const AskedInstant& at, double isovalue,
@@ -184,14 +190,22 @@ Triangles<double> RunArray::mesh(const AskedInstant& at, double isovalue, std::s
 index::MeasuredSurface RunArray::measure(const AskedInstant& at, double isovalue,
                                          const std::optional<std::string>& on_surface, bool pieces,
                                          const std::optional<index::VertexBox>& box,
-                                         const std::optional<index::CutPlane>& clip) {
+                                         const std::optional<index::CutPlane>& clip,
+                                         std::uint32_t dust) {
     const index::Query asked = query(at, isovalue);
-    const index::MeasureWishes wishes{
+    index::MeasureWishes wishes{
         .array = source_called(on_surface), .box = box, .clip = clip, .pieces = pieces};
+    wishes.kept.dust = dust;
     const auto make = [this] { return std::make_unique<index::SurfaceMeasures>(file_); };
     return measures_.with(make, [&](index::SurfaceMeasures& measures) {
         return *measures.measure(asked, wishes); // which nobody stops
     });
+}
+
+std::vector<double> RunArray::profile(const AskedInstant& at,
+                                      std::vector<glm::dvec3> places) const {
+    return index::rows_of(index::profile_of(
+        {file_, index::instant_named(*file_, at.step, at.fraction), std::move(places)}));
 }
 
 index::FirstCrossings RunArray::first_crossings(double isovalue, bool blended) const {

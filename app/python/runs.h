@@ -74,6 +74,7 @@ struct Triangles {
 struct WishedOfMesh {
     bool normals = false;
     std::optional<std::string> values; ///< name of the array whose values are wanted
+    std::uint32_t dust = 0;            ///< pieces of fewer active cells are left out
 };
 
 /// A range of vertices along z, y and x: the first, and the one after the last.
@@ -100,16 +101,19 @@ class RunArray {
     Triangles<double> mesh(const AskedInstant& at, double isovalue, std::size_t level,
                            const WishedOfMesh& wished);
     /// @param on_surface name of the array to measure on the surface
+    /// @param dust pieces of fewer active cells are left out
     index::MeasuredSurface measure(const AskedInstant& at, double isovalue,
                                    const std::optional<std::string>& on_surface, bool pieces,
                                    const std::optional<index::VertexBox>& box,
-                                   const std::optional<index::CutPlane>& clip);
+                                   const std::optional<index::CutPlane>& clip, std::uint32_t dust);
     /// Stored values, x fastest; between two steps, as index::Blend stores them. Reads the chunks in
     /// which the box lies, and no others, unless the index refers to its sources.
     std::vector<std::byte> values(const AskedInstant& at, const Box& box, std::size_t level) const;
     /// Scaled values between two steps.
     std::vector<double> blended_values(const AskedInstant& at, const Box& box,
                                        std::size_t level) const;
+    /// `index::profile_of` from place to place, as `index::rows_of`.
+    std::vector<double> profile(const AskedInstant& at, std::vector<glm::dvec3> places) const;
     /// When each cell is first active. @param blended also between the steps
     index::FirstCrossings first_crossings(double isovalue, bool blended) const;
 

@@ -65,10 +65,13 @@ fs::path write_table(const fs::path& folder, const char* name, const std::string
 SessionCurves::SessionCurves(CurveMaker::Measure measure)
     : maker_(std::move(measure)),
       profiling_(
-          [](const ProfileQuery& query, const Asking& asking) {
-              return Profiled{query, std::make_shared<Profile>(profile_of(query, asking.stop)), {}};
+          [](const index::ProfileQuery& query, const Asking& asking) {
+              return Profiled{
+                  query,
+                  std::make_shared<index::Profile>(index::profile_of(query, asking.stop)),
+                  {}};
           },
-          [](const ProfileQuery& query, const std::string& why, bool) {
+          [](const index::ProfileQuery& query, const std::string& why, bool) {
               return Profiled{query, nullptr, why};
           }) {}
 
@@ -101,7 +104,8 @@ void SessionCurves::update_profile(const Frame& frame, const ShownArrays& arrays
     profile_wanted_ = seen && ruler && ruler->complete();
     if (!profile_wanted_)
         return;
-    const ProfileQuery query{arrays.held(frame.state), frame.state.shown_instant(), ruler->places};
+    const index::ProfileQuery query{arrays.held(frame.state), frame.state.shown_instant(),
+                                    ruler->places};
     if (profiled_.query == query || profiles_)
         return;
     profiles_ = profiling_.ask(query);
@@ -169,9 +173,10 @@ void SessionCurves::save(const ExplorerState& state) {
     const std::string& chosen = state.pictures.folder;
     const fs::path folder = chosen.empty() ? folders_->tables : fs::path(chosen);
     if (state.curves.measure == kProfileCurve) {
-        if (const ProfilePtr profile = profile_wanted_ ? profiled_.profile : nullptr)
+        if (const index::ProfilePtr profile = profile_wanted_ ? profiled_.profile : nullptr)
             writing_.post([folder, profile] {
-                return "saved " + whole_path(write_table(folder, "profile", csv_of(*profile)));
+                return "saved " +
+                       whole_path(write_table(folder, "profile", index::csv_of(*profile)));
             });
         return;
     }

@@ -5,11 +5,11 @@
 #include "app/choice/frame.h"
 #include "app/frame/asker.h"
 #include "app/frame/background_work.h"
-#include "app/frame/profile.h"
 #include "app/panel/panel_model.h"
 #include "app/session/curve_maker.h"
 #include "app/session/shown_arrays.h"
 #include "index/extraction/extractor.h"
+#include "index/extraction/profile.h"
 
 #include <filesystem>
 #include <functional>
@@ -47,9 +47,9 @@ class SessionCurves {
 
   private:
     struct Profiled {
-        ProfileQuery query;
-        ProfilePtr profile;  ///< null: it could not be made
-        std::string failure; ///< why
+        index::ProfileQuery query;
+        index::ProfilePtr profile; ///< null: it could not be made
+        std::string failure;       ///< why
     };
     void update_profile(const Frame& frame, const ShownArrays& arrays, bool seen);
     void save(const ExplorerState& state);
@@ -62,7 +62,7 @@ class SessionCurves {
     CurveMaker maker_;
     Profiled profiled_;                              ///< the last one
     bool profile_wanted_ = false, profiles_ = false; ///< a panel shows it; one is being made
-    Asker<ProfileQuery, Profiled> profiling_;
+    Asker<index::ProfileQuery, Profiled> profiling_;
     BackgroundWork writing_;
 };
 

@@ -143,7 +143,7 @@ std::string profile_words(const PanelModel& model) {
     const interaction::Ruler* const ruler = model.asked.rulers.chosen();
     if (!model.curves.profile)
         return "reading ...";
-    const Profile& profile = *model.curves.profile;
+    const index::Profile& profile = *model.curves.profile;
     if (profile.values.empty())
         return "a ruler of no length";
     return fmt::format("ruler {}, {}, {}", ruler ? ruler->name : std::string(),
@@ -299,7 +299,7 @@ void plot(const PanelModel& model, const Shown& shown, const ImVec2& size, Comma
 /// The values along the ruler; a press marks the place.
 void profile_plot(const PanelModel& model, const Shown& shown, const ImVec2& size,
                   Commands& commands) {
-    const Profile& profile = *model.curves.profile;
+    const index::Profile& profile = *model.curves.profile;
     PlottedCurves curves{.times = profile.distances,
                          .time_unit = model.info.length_unit,
                          .unit = shown.choice().unit,
@@ -327,7 +327,7 @@ void profile_plot(const PanelModel& model, const Shown& shown, const ImVec2& siz
 
 /// Where the values along the ruler cross the isovalues.
 void profile_crossings(const PanelModel& model, const ImVec2& size) {
-    const Profile& profile = *model.curves.profile;
+    const index::Profile& profile = *model.curves.profile;
     ImGui::BeginChild("crossings", size);
     for (const interaction::Isosurface& each : model.asked.isosurfaces) {
         if (each.opacity <= 0)

@@ -29,6 +29,9 @@ Steps = Union[SupportsIndex, slice, range, str]
 #: Vertices to keep: {"x": slice(0, 32), ...}, slices along z, y and x, or X0:X1,Y0:Y1,Z0:Z1 with both ends.
 Crop = Union[str, Mapping[str, slice], Sequence[slice]]
 
+#: A sample of a profile.
+PROFILE = np.dtype([(name, "<f8") for name in ("distance", "x", "y", "z", "value")])
+
 _WHOLE = 65536
 T = TypeVar("T")
 
@@ -224,6 +227,22 @@ def crop_box(crop: Crop | None, shape: tuple[int, ...]) -> list[tuple[int, int]]
             f"crop: expected vertices from 0 to {x}, {y} and {z} along x, y and z, the first below the last, got {said}"
         )
     return box
+
+
+def least_cells(dust: Any) -> int:
+    """Active cells that a piece has at least; 0: any."""
+    found = whole(dust, "dust")
+    if not 0 <= found < 1 << 32:
+        raise ArgumentError(f"dust: expected a number of cells, from 0, got {found}")
+    return found
+
+
+def path(places: Sequence[Sequence[Number]]) -> list[list[float]]:
+    """Places, two or more, of a profile."""
+    found = [numbers(place, "profile", 3) for place in places]
+    if len(found) < 2:
+        raise ArgumentError(f"profile: expected two places (x, y, z) or more, got {len(found)}")
+    return found
 
 
 def clip_plane(clip: Sequence[Number] | None) -> list[float] | None:

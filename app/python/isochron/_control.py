@@ -6,14 +6,14 @@ import json
 import os
 import re
 import socket
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from types import TracebackType
 from typing import Any, SupportsIndex
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from ._arguments import Number, number, whole
+from ._arguments import PROFILE, Number, number, path, whole
 from ._errors import ArgumentError, Error, MissingFileError
 from ._mesh import Mesh
 
@@ -118,6 +118,17 @@ class Session:
         places = np.frombuffer(data, np.float32, 3 * points).reshape(points, 3)
         corners = np.frombuffer(data, np.uint32, 3 * triangles, 24 * points).reshape(triangles, 3)
         return Mesh((places + np.asarray(answer["origin"])).astype(kind), corners)
+
+    def profile(
+        self, *places: Sequence[Number], step: SupportsIndex | None = None, array: str | None = None
+    ) -> NDArray[np.void]:
+        """The values from place to place, as `Run.profile` has them; without places, along the ruler that is picked.
+
+        What is not given is as it is shown.
+        """
+        of = _given(places=path(places)) if places else {}
+        _, data = self._ask("profile", **of, **_asked(None, step, array))
+        return np.frombuffer(data, PROFILE)
 
     def events(self, *topics: str, rate: Number = 30) -> Iterator[dict[str, Any]]:
         """What changes, until the session ends: `state`, `time`, `cells` or `statistics`, at most `rate` a second.

@@ -14,7 +14,8 @@ from numpy.typing import DTypeLike, NDArray
 
 from . import _native
 from ._arguments import (
-    Crop, Isovalues, Number, Steps, T, Time, clip_plane, crop_box, moment, number, several, span, time_number, whole,
+    PROFILE, Crop, Isovalues, Number, Steps, T, Time,
+    clip_plane, crop_box, least_cells, moment, number, path, several, span, time_number, whole,
 )  # fmt: skip
 from ._errors import ArgumentError, Error, PlaceError, in_parameters, missing
 from ._html import table
@@ -213,6 +214,7 @@ class Run:
         dtype: DTypeLike = ...,
         normals: bool = ...,
         values: str | None = ...,
+        dust: SupportsIndex = ...,
     ) -> list[Mesh]: ...
     @overload
     def mesh(
@@ -227,6 +229,7 @@ class Run:
         dtype: DTypeLike = ...,
         normals: bool = ...,
         values: str | None = ...,
+        dust: SupportsIndex = ...,
     ) -> Mesh: ...
     def mesh(
         self,
@@ -240,6 +243,7 @@ class Run:
         dtype: DTypeLike = np.float32,
         normals: bool = False,
         values: str | None = None,
+        dust: SupportsIndex = 0,
     ) -> Mesh | list[Mesh]:
         """The isosurface as points (N, 3) and triangles (M, 3) of numbers of points; several are a list.
 
@@ -250,6 +254,7 @@ class Run:
         isovalue, step, time, fraction, level: as for `cells`.
         normals: whether the mesh gets `normals`: (N, 3), of length 1, towards lower values.
         values: the name of another array, whose values at the points the mesh gets.
+        dust: leaves out the connected pieces of fewer active cells, at level 0.
         """
         kind = np.dtype(dtype)
         if kind not in (np.dtype(np.float32), np.dtype(np.float64)):
@@ -260,8 +265,12 @@ class Run:
             where = f"of {', '.join(self._names)}, and level 0"
             raise ArgumentError(f"values: expected the name of an array {where}, got {values!r} at level {detail}")
 
+        least = least_cells(dust)
+        if least and detail > 0:
+            raise ArgumentError(f"dust: expected level 0, where pieces are told apart, got level {detail}")
+
         def one(value: float) -> Mesh:
-            points, faces, towards, others = of.mesh(*at, value, absolute, detail, bool(normals), values)
+            points, faces, towards, others = of.mesh(*at, value, absolute, detail, bool(normals), values, least)
             return Mesh(
                 points,
                 faces,
@@ -304,6 +313,7 @@ class Run:
         on_surface: str | None = None,
         crop: Crop | None = None,
         clip: Sequence[Number] | None = None,
+        dust: SupportsIndex = 0,
     ) -> dict[str, float]:
         """Numbers of the surface: area, volume, pieces and more, by their names.
 
@@ -315,9 +325,11 @@ class Run:
         crop: vertices as for `build`: only the cells among them are measured, as if there were no others.
         clip: (x, y, z, nx, ny, nz): only what is not beyond the plane in this point, where the normal points to: the
             surface, cut without a cap, and volumes, exactly.
+        dust: leaves out the connected pieces of fewer active cells.
         """
         at, box = moment(self, step, fraction, time), crop_box(crop, self.shape[1:])
-        found, _ = self._array(array).measure(*at, number(isovalue, "isovalue"), on_surface, False, box, clip_plane(clip))
+        of, value, plane, least = self._array(array), number(isovalue, "isovalue"), clip_plane(clip), least_cells(dust)
+        found, _ = of.measure(*at, value, on_surface, False, box, plane, least)
         return dict(zip(_measures(), found))
 
     def measures(
@@ -329,13 +341,14 @@ class Run:
         on_surface: str | None = None,
         crop: Crop | None = None,
         clip: Sequence[Number] | None = None,
+        dust: SupportsIndex = 0,
     ) -> NDArray[np.void]:
         """`measure` of each step: a structured array with the fields step, time and those of `measure`.
 
         steps: one, a slice or a range; None: all.
         """
         first, last, stride = span(slice(None) if steps is None else steps, "steps", len(self))
-        how: dict[str, Any] = {"array": array, "on_surface": on_surface, "crop": crop, "clip": clip}
+        how: dict[str, Any] = {"array": array, "on_surface": on_surface, "crop": crop, "clip": clip, "dust": dust}
         rows = [
             (step, float(self.times[step]), *self.measure(isovalue, step, **how).values())
             for step in range(first, last + 1, stride)
@@ -353,20 +366,44 @@ class Run:
         array: str | None = None,
         crop: Crop | None = None,
         clip: Sequence[Number] | None = None,
+        dust: SupportsIndex = 0,
     ) -> NDArray[np.void]:
         """The connected pieces of the surface, the largest area first: a structured array.
 
         Fields: triangles, area, volume (what the piece encloses: negative around lower values, NaN unless closed),
         euler, closed (1 or 0), and x, y, z each of centroid (weighted by area), low and high (its extent).
+
+        dust: leaves out pieces of fewer active cells.
         """
         at, box = moment(self, step, fraction, time), crop_box(crop, self.shape[1:])
-        _, rows = self._array(array).measure(*at, number(isovalue, "isovalue"), None, True, box, clip_plane(clip))
+        of, value, plane, least = self._array(array), number(isovalue, "isovalue"), clip_plane(clip), least_cells(dust)
+        _, rows = of.measure(*at, value, None, True, box, plane, least)
         place = (np.float64, 3)
         kind = np.dtype([
             ("triangles", np.float64), ("area", np.float64), ("volume", np.float64), ("euler", np.float64),
             ("closed", np.float64), ("centroid", *place), ("low", *place), ("high", *place),
         ])  # fmt: skip
         return np.ascontiguousarray(rows).view(kind).reshape(len(rows))
+
+    def profile(
+        self,
+        *places: Sequence[Number],
+        step: SupportsIndex | None = None,
+        time: Time = None,
+        fraction: Number | None = None,
+        array: str | None = None,
+    ) -> NDArray[np.void]:
+        """The values along straight lines from place to place, as a ruler in the window has them: a structured array of
+        513 samples, equally far from each other, with the fields distance, x, y, z and value.
+
+        Values are trilinear between vertices, and NaN outside the data and where they are missing. There are no samples
+        where all places are one.
+
+        places: (x, y, z) each, absolute, in `length_unit`; two or more.
+        step, time, fraction: as for `cells`.
+        """
+        rows = self._array(array).profile(*moment(self, step, fraction, time), path(places))
+        return rows.view(PROFILE).reshape(len(rows))
 
     def values(
         self,
@@ -435,6 +472,7 @@ class Run:
         crop: Crop | None = None,
         clip: Sequence[Number] | None = None,
         simplify: Number | str | None = None,
+        dust: SupportsIndex = 0,
         quantize: bool = False,
         compress: bool = False,
         normals: bool = True,
@@ -454,6 +492,7 @@ class Run:
         crop: as for `build`: triangles within these vertices alone.
         clip: (x, y, z, nx, ny, nz): nothing beyond the plane in this point, where the normal points to.
         simplify: how far the surface may move for fewer triangles: a length, or "0.5cells".
+        dust: leaves out the connected pieces of fewer active cells.
         quantize, compress: smaller glTF. force: replaces files that exist.
         """
         from ._export import export
@@ -461,7 +500,8 @@ class Run:
         return export(self, os.fspath(out), isovalue, steps, time, fraction, {
             "array": array, "format": format, "color_by": color_by, "color_map": color_map, "range": range,
             "precision": "double" if double else None, "unit": unit, "rate": rate, "crop": crop, "clip": clip,
-            "simplify": simplify, "quantize": quantize, "compress": compress, "no_normals": not normals, "force": force,
+            "simplify": simplify, "dust": least_cells(dust) or None, "quantize": quantize, "compress": compress,
+            "no_normals": not normals, "force": force,
         })  # fmt: skip
 
     def to_xarray(self, *, decode_times: bool = False) -> xarray.Dataset:

@@ -25,7 +25,7 @@ std::string refusal_of(const std::string& line) {
 }
 
 TEST(ControlRequest, ComesBackAsItWasWritten) {
-    std::vector<ControlRequest> all(7);
+    std::vector<ControlRequest> all(8);
     all[0].verb = ControlVerb::hello;
     all[0].token = "secret";
     all[1].verb = ControlVerb::state;
@@ -42,6 +42,9 @@ TEST(ControlRequest, ComesBackAsItWasWritten) {
     all[6].verb = ControlVerb::mesh;
     all[6].step = 3;
     all[6].array = "rho";
+    all[7].verb = ControlVerb::profile;
+    all[7].places = {{1, 2, 3}, {0.1, -4, 5e9}, {1, 1, 1}};
+    all[7].step = 2;
     for (const ControlRequest& request : all) {
         std::string id;
         EXPECT_EQ(request_from(line_of(request, "\"a\""), id), request) << line_of(request);
@@ -54,10 +57,15 @@ TEST(ControlRequest, SaysWhatIsWrongInOneLine) {
     EXPECT_EQ(refusal_of("[]"), "request: expected an object, got []");
     EXPECT_EQ(refusal_of(std::string(100'000, '[')), "request: nested deeper than 16 levels");
     EXPECT_EQ(refusal_of("{}"), "request: \"verb\" is missing");
-    EXPECT_EQ(
-        refusal_of(R"({"verb":"fly"})"),
-        "verb: expected hello, state, commands, subscribe, picture, cells, mesh, got \"fly\"");
+    EXPECT_EQ(refusal_of(R"({"verb":"fly"})"), "verb: expected hello, state, commands, subscribe, "
+                                               "picture, cells, mesh, profile, got \"fly\"");
     EXPECT_EQ(refusal_of(R"({"verb":"state","x":1})"), "request: unknown key \"x\"");
+    EXPECT_EQ(refusal_of(R"({"verb":"profile","places":[[1,2,3]]})"),
+              "places: expected a list of 2 to 256, got [[1,2,3]]");
+    EXPECT_EQ(refusal_of(R"({"verb":"profile","places":[[1,2,3],[1,2,"x"]]})"),
+              "places: expected a number, got \"x\"");
+    EXPECT_EQ(refusal_of(R"({"verb":"profile","isovalue":1})"),
+              "request: unknown key \"isovalue\"");
     EXPECT_EQ(refusal_of(R"({"verb":"state","id":[1]})"),
               "id: expected a whole number or a text, got [1]");
     EXPECT_EQ(refusal_of(R"({"verb":"commands","commands":{"undo":true,"step":1}})"),

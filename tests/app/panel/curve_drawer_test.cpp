@@ -70,8 +70,8 @@ TEST_F(CurveDrawerTest, PlotsTheValuesAlongTheRulerAndMarksWhereItIsPressed) {
     asked_.curves.measure = kProfileCurve;
     asked_.rulers.list = {{.name = "1", .places = {{0, 1, 1}, {4, 1, 1}}}};
     asked_.isosurfaces[0].isovalue = 3;
-    curves_.profile = std::make_shared<const Profile>(
-        profile_of({file_, index::Instant(1), asked_.rulers.list[0].places}));
+    curves_.profile = std::make_shared<const index::Profile>(
+        index::profile_of({file_, index::Instant(1), asked_.rulers.list[0].places}));
     EXPECT_TRUE(says("ruler 1, 4 mm, 1"));
     EXPECT_TRUE(says("at 2 mm rising"));
     const interaction::Commands pressed = click(in_drawer(0.4f, 0.5f));

@@ -52,6 +52,15 @@ class Control(unittest.TestCase):
             there, ours = run.mesh(isovalue, step=1, dtype=np.float64)
             np.testing.assert_allclose(points, there, atol=1e-3)
             np.testing.assert_array_equal(faces, ours)
+            ends = [(0, 0, 0), (2.5, 1, 3)]
+            with self.assertRaisesRegex(isochron.Error, "expected places, or a ruler"):
+                session.profile()
+            session.tell(rulers={"list": [{"name": "", "places": ends, "angle": False, "shown": True}], "picked": 0,
+                                 "angle": False}, curves={"shown": True, "measure": "profile", "logarithmic": False})  # fmt: skip
+            line = run.profile(*ends, step=1)
+            self.assertEqual(line.tobytes(), session.profile().tobytes())
+            self.assertEqual(session.profile(*ends[::-1], step=0).tobytes(), run.profile(*ends[::-1]).tobytes())
+            session.tell(undo=True)
             picture = session.picture()
             self.assertEqual(picture.shape[2], 3)
             self.assertGreater(picture.std(), 0)

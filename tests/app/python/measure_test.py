@@ -66,6 +66,43 @@ class Measures(SeriesTest):
             with self.assertRaisesRegex(isochron.Error, "clip: expected"):
                 run.measure(isovalue, 1, clip=wrong)
 
+    def test_without_dust_are_those_of_the_larger_pieces(self):
+        run, isovalue = self.run_, float(np.median(self.run_.values(1)))
+        pieces, least = run.pieces(isovalue, 1), 40
+        large = run.pieces(isovalue, 1, dust=least)
+        self.assertTrue(0 < len(large) < len(pieces), "the series has both")
+        kept = run.measure(isovalue, 1, dust=least)
+        self.assertEqual(kept["pieces"], len(large))
+        self.assertAlmostEqual(kept["area"], large["area"].sum(), delta=1e-9 * kept["area"])
+        self.assertEqual(run.measures(isovalue, 1, dust=least)["area"][0], kept["area"])
+        points, faces = run.mesh(isovalue, 1, dust=least)
+        self.assertEqual(len(faces), large["triangles"].sum())
+        self.assertEqual(faces.max(), len(points) - 1)
+        for wrong in (-1, 1.5, 1 << 32):
+            with self.assertRaisesRegex(isochron.Error, "dust: expected"):
+                run.measure(isovalue, 1, dust=wrong)
+
+    def test_along_a_line_are_those_of_the_vertices(self):
+        run = self.run_
+        nz, _, nx = run.shape[1:]
+
+        def place(x, y, z):
+            return run.origin + run.spacing[::-1] * np.array([x, y, z])
+
+        line = run.profile(place(0, 1, 2), place(nx - 1, 1, 2), place(nx - 1, 1, nz), step=1)
+        self.assertEqual(len(line), 513)
+        self.assertEqual(line["value"][0], run.values(1)[2, 1, 0])
+        along = line["z"] == line["z"][0]
+        vertices = run.origin[0] + run.spacing[2] * np.arange(nx)
+        whole = np.interp(line["x"][along], vertices, run.values(1)[2, 1].astype(float))
+        np.testing.assert_allclose(line["value"][along], whole, rtol=1e-6, atol=1e-6)
+        self.assertTrue(np.isnan(line["value"][-1]), "beyond the data")
+        np.testing.assert_allclose(np.diff(line["distance"]), line["distance"][-1] / 512)
+        self.assertEqual(len(run.profile(place(1, 1, 1), place(1, 1, 1))), 0)
+        for wrong in ([(0, 0, 0)], [(0, 0), (1, 1)], [(0, 0, 0), (np.nan, 0, 0)]):
+            with self.assertRaisesRegex(isochron.Error, "profile"):
+                run.profile(*wrong)
+
     def test_of_pieces_add_up(self):
         run, isovalue = self.run_, float(np.median(self.run_.values(1)))
         pieces, found = run.pieces(isovalue, 1), run.measure(isovalue, 1)

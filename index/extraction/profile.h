@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-namespace isochron::app {
+namespace isochron::index {
 
 /// Where values are asked for: at an instant of an array, along straight lines from place to place.
 struct ProfileQuery {
-    std::shared_ptr<const index::IndexFile> array;
-    index::Instant instant;
+    std::shared_ptr<const IndexFile> array;
+    Instant instant;
     std::vector<glm::dvec3> places; ///< physical space, two or more
     bool operator==(const ProfileQuery&) const = default;
 };
@@ -33,11 +33,14 @@ using ProfilePtr = std::shared_ptr<const Profile>;
 inline constexpr std::size_t kProfileSamples = 513;
 
 /// kProfileSamples, equally far from each other; without any if all places are one.
-/// @throws index::Error when data cannot be read or are damaged
-/// @throws index::Stopped when it is asked to stop
+/// @throws Error when data cannot be read or are damaged
+/// @throws Stopped when it is asked to stop
 Profile profile_of(const ProfileQuery& query, const std::stop_token& stop = {});
+
+/// Of each sample the distance, x, y, z and the value.
+std::vector<double> rows_of(const Profile& profile);
 
 /// A table: `distance,x,y,z,value`, a row for each sample; nothing for a value that is not there.
 std::string csv_of(const Profile& profile);
 
-} // namespace isochron::app
+} // namespace isochron::index

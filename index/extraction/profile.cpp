@@ -1,5 +1,5 @@
 // The values along a ruler.
-#include "app/frame/profile.h"
+#include "index/extraction/profile.h"
 
 #include "index/extraction/value_in_index.h"
 
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace isochron::app {
+namespace isochron::index {
 
 Profile profile_of(const ProfileQuery& query, const std::stop_token& stop) {
     Profile profile{.query = query, .distances = {}, .values = {}, .at = {}};
@@ -30,8 +30,17 @@ Profile profile_of(const ProfileQuery& query, const std::stop_token& stop) {
         profile.distances.push_back(way);
         profile.at.push_back(glm::mix(query.places[leg - 1], query.places[leg], share));
     }
-    profile.values = index::values_in(*query.array, query.instant, profile.at, stop);
+    profile.values = values_in(*query.array, query.instant, profile.at, stop);
     return profile;
+}
+
+std::vector<double> rows_of(const Profile& profile) {
+    std::vector<double> rows;
+    for (std::size_t i = 0; i < profile.values.size(); ++i) {
+        const glm::dvec3& at = profile.at[i];
+        rows.insert(rows.end(), {profile.distances[i], at.x, at.y, at.z, profile.values[i]});
+    }
+    return rows;
 }
 
 std::string csv_of(const Profile& profile) {
@@ -46,4 +55,4 @@ std::string csv_of(const Profile& profile) {
     return text;
 }
 
-} // namespace isochron::app
+} // namespace isochron::index

@@ -1,5 +1,5 @@
 // Values along a ruler, against the field that they come from.
-#include "app/frame/profile.h"
+#include "index/extraction/profile.h"
 
 #include "index/extraction/value_in_index.h"
 #include "tests/support/indexed.h"
@@ -11,25 +11,25 @@
 #include <cmath>
 #include <sstream>
 
-namespace isochron::app {
+namespace isochron::index {
 namespace {
 
 class ProfileTest : public testing::Test {
   protected:
     /// 70 vertices make several chunks along each axis.
     ProfileTest() {
-        const index::TestField field(
-            {70, 70, 70}, 2, index::ValueType::f64,
+        const TestField field(
+            {70, 70, 70}, 2, ValueType::f64,
             [](double x, double y, double z, double t) { return 2 * x - 3 * y + 5 * z + 100 * t; });
-        file_ = index::indexed(folder_, field.view());
+        file_ = indexed(folder_, field.view());
     }
     test_support::TestFolder folder_;
-    std::shared_ptr<const index::IndexFile> file_;
+    std::shared_ptr<const IndexFile> file_;
 };
 
 TEST_F(ProfileTest, IsTheFieldAlongALineAndGoesOnAroundACorner) {
     const glm::dvec3 a(3, 60, 1), b(66, 5, 40), c(66, 5, 68);
-    const Profile profile = profile_of({file_, index::Instant(1), {a, b, c}});
+    const Profile profile = profile_of({file_, Instant(1), {a, b, c}});
     ASSERT_EQ(profile.values.size(), kProfileSamples);
     EXPECT_EQ(profile.distances.front(), 0);
     EXPECT_NEAR(profile.distances.back(), glm::distance(a, b) + glm::distance(b, c), 1e-9);
@@ -46,7 +46,7 @@ TEST_F(ProfileTest, IsTheFieldAlongALineAndGoesOnAroundACorner) {
 }
 
 TEST_F(ProfileTest, HasNoValuesOutsideTheData) {
-    const Profile profile = profile_of({file_, index::Instant(0), {{-10, 5, 5}, {79, 5, 5}}});
+    const Profile profile = profile_of({file_, Instant(0), {{-10, 5, 5}, {79, 5, 5}}});
     for (std::size_t i = 0; i < profile.values.size(); ++i) {
         const bool inside = profile.at[i].x >= 0 && profile.at[i].x <= 69;
         EXPECT_EQ(std::isfinite(profile.values[i]), inside) << profile.at[i].x;
@@ -54,9 +54,8 @@ TEST_F(ProfileTest, HasNoValuesOutsideTheData) {
 }
 
 TEST_F(ProfileTest, OfOnePlaceIsEmptyAndATableHasARowForEachSample) {
-    EXPECT_TRUE(profile_of({file_, index::Instant(0), {{1, 1, 1}, {1, 1, 1}}}).values.empty());
-    std::istringstream table(
-        csv_of(profile_of({file_, index::Instant(0), {{68, 0, 0}, {70, 0, 0}}})));
+    EXPECT_TRUE(profile_of({file_, Instant(0), {{1, 1, 1}, {1, 1, 1}}}).values.empty());
+    std::istringstream table(csv_of(profile_of({file_, Instant(0), {{68, 0, 0}, {70, 0, 0}}})));
     std::string line, last;
     std::getline(table, line);
     EXPECT_EQ(line, "distance,x,y,z,value");
@@ -72,4 +71,4 @@ TEST_F(ProfileTest, OfOnePlaceIsEmptyAndATableHasARowForEachSample) {
 }
 
 } // namespace
-} // namespace isochron::app
+} // namespace isochron::index

@@ -274,6 +274,16 @@ void free_piece(const PanelModel& model, std::size_t i, Commands& commands) {
         all.dust = 0;
 }
 
+constexpr ItemAct kPieceActs[] = {
+    {"give it a color of its own",
+     [](const PanelModel& model, std::size_t i) {
+         const auto& only = model.asked.pieces.only;
+         return i < only.size() && colored_piece(model.asked, only[i]);
+     },
+     [](const PanelModel& model, std::size_t i, Commands& commands) {
+         merge(commands, *colored_piece(model.asked, model.asked.pieces.only[i]));
+     }}};
+
 // Marks: those that were kept, then the mark if it was not.
 
 std::size_t count_marks(const PanelModel& model) {
@@ -428,6 +438,7 @@ std::vector<ItemKind> all_kinds() {
          .item = piece_item,
          .show = [](const PanelModel& model, std::size_t i, bool,
                     Commands& commands) { free_piece(model, i, commands); },
+         .acts = kPieceActs,
          .remove = free_piece},
         {.name = "mark",
          .icon = icon_of(ToolKind::pick),

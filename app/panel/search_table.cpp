@@ -104,6 +104,7 @@ constexpr OtherNames kOtherNames[] = {
      "isolate, extract piece, keep only, largest region, single component, show alone, "
      "extract connected region, solo"},
     {"hide_piece", "delete piece, remove piece, remove blob, erase component"},
+    {"color_piece", "paint piece, highlight piece, color component, recolor region, label color"},
     {"all_pieces", "unhide pieces, bring back pieces, all components"},
     {"histogram", "distribution, statistics, value distribution, mean, average, percentiles, "
                   "threshold from histogram"},
@@ -597,6 +598,10 @@ void add_surfaces(Lines& lines) {
         if (const auto hidden = hidden_piece(model.asked, *piece))
             lines.add(
                 {.name = "hide_piece", .words = "hide the piece at the mark", .commands = *hidden});
+        if (const auto colored = colored_piece(model.asked, *piece))
+            lines.add({.name = "color_piece",
+                       .words = "give the piece at the mark a color of its own",
+                       .commands = *colored});
     }
     if (!model.asked.pieces.all())
         lines

@@ -4,6 +4,7 @@
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/rows.h"
+#include "app/panel/parts/surfaces_section.h"
 #include "app/panel/parts/theme.h"
 #include "app/text.h"
 #include "interaction/navigation/navigation.h"
@@ -77,6 +78,12 @@ void piece_row(const PanelModel& model, const PieceList& list, const index::Meas
     if (ImGui::Button("alone"))
         merge(commands, only_piece(model.asked, placed));
     tip("show this piece without the others");
+    ImGui::SameLine(0.0f, 2.0f);
+    const auto colored = colored_piece(model.asked, placed);
+    if (colored && ImGui::Button("color"))
+        merge(commands, *colored);
+    if (colored)
+        tip(kColorsPiece);
     piece_cell(grouped(piece.cells));
     piece_cell(fmt::format("{:.4g}", piece.area));
     piece_cell(std::isnan(piece.volume) ? "-" : fmt::format("{:.4g}", piece.volume));
@@ -97,7 +104,7 @@ PieceOrder order_of_table() {
 void table_of_pieces(const PanelModel& model, Commands& commands) {
     constexpr ImGuiTableFlags kTable =
         ImGuiTableFlags_Sortable | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit;
-    constexpr float kWidth = 460.0f, kHeight = 300.0f, kColumn = 84.0f;
+    constexpr float kWidth = 510.0f, kHeight = 300.0f, kColumn = 84.0f;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const ImVec2 size(std::min(kWidth, 0.9f * screen.x), std::min(kHeight, 0.6f * screen.y));
     if (!ImGui::BeginTable("list", 1 + static_cast<int>(kPieceColumns.size()), kTable, size))
@@ -167,6 +174,13 @@ void lines_at_mark(const PanelModel& model, Commands& commands) {
             merge(commands, *hidden);
         ImGui::EndDisabled();
         tip("hide the piece at the mark");
+        ImGui::SameLine();
+        const auto colored = colored_piece(model.asked, *piece);
+        ImGui::BeginDisabled(!colored);
+        if (ImGui::Button("color") && colored)
+            merge(commands, *colored);
+        ImGui::EndDisabled();
+        tip(kColorsPiece);
         if (!all)
             ImGui::SameLine();
     } else {
@@ -191,6 +205,21 @@ Commands only_piece(const ExplorerState& state, const PlacedPiece& piece) {
     std::erase_if(commands.pieces->only,
                   [&](const PlacedPiece& each) { return each.surface == piece.surface; });
     commands.pieces->only.push_back(piece);
+    return commands;
+}
+
+std::optional<Commands> colored_piece(const ExplorerState& state, const PlacedPiece& piece) {
+    const std::size_t count = state.isosurfaces.size();
+    auto commands = hidden_piece(state, piece);
+    if (!commands || count >= interaction::kMostIsosurfaces || piece.surface >= count ||
+        state.pieces.only.size() >= interaction::kMostPlacedPieces)
+        return std::nullopt;
+    commands->isosurfaces = state.isosurfaces;
+    interaction::Isosurface own = state.isosurfaces[piece.surface];
+    own.color = free_color(state.isosurfaces);
+    commands->isosurfaces->push_back(std::move(own));
+    commands->picked = static_cast<std::uint32_t>(count);
+    commands->pieces->only.push_back({*commands->picked, piece.place});
     return commands;
 }
 

@@ -17,6 +17,12 @@ interaction::Commands only_piece(const ExplorerState& state, const interaction::
 /// Commands that hide the piece of a surface at a place; nothing where so many are hidden as can be.
 std::optional<interaction::Commands> hidden_piece(const ExplorerState& state,
                                                   const interaction::PlacedPiece& piece);
+inline constexpr const char* kColorsPiece =
+    "give this piece a color of its own: it becomes a surface of the same isovalue";
+/// Commands that make a surface of its own of the piece of a surface at a place, with a color that no
+/// surface has, and pick it; nothing where there are as many surfaces or pieces as can be.
+std::optional<interaction::Commands> colored_piece(const ExplorerState& state,
+                                                   const interaction::PlacedPiece& piece);
 /// Commands that hide all pieces of fewer active cells; 0: none.
 interaction::Commands with_dust(const ExplorerState& state, double cells);
 /// What is left of the settings of pieces where a surface is removed.

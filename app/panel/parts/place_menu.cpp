@@ -63,6 +63,10 @@ bool place_menu(const PanelModel& model, const std::optional<interaction::Pointe
     const auto hidden = hidden_piece(model.asked, piece);
     if (ImGui::MenuItem("hide this piece", nullptr, false, on_surface && hidden))
         interaction::merge(commands, *hidden);
+    const auto colored = colored_piece(model.asked, piece);
+    if (ImGui::MenuItem("color this piece", nullptr, false, on_surface && colored))
+        interaction::merge(commands, *colored);
+    tip(kColorsPiece);
     if (!model.asked.pieces.all() && ImGui::MenuItem("show all pieces"))
         commands.pieces = interaction::ShownPieces{};
     ImGui::Separator();

@@ -30,15 +30,6 @@ using interaction::Isosurface;
 
 constexpr float kSmallIcon = 22.0f, kOpacityField = 54.0f;
 
-/// A color that no surface has.
-glm::vec3 free_color(const std::vector<Isosurface>& surfaces) {
-    const auto& palette = render::surface_palette();
-    const auto free = std::ranges::find_if(palette, [&](const glm::vec3& color) {
-        return std::ranges::find(surfaces, color, &Isosurface::color) == surfaces.end();
-    });
-    return free == palette.end() ? palette.front() : *free;
-}
-
 /// A new surface of the picked one's array: with a color that no other has, and an isovalue of this
 /// step's values, see `further_isovalue`, or else one between the picked one's and the farther end of
 /// the range.
@@ -210,6 +201,14 @@ void let_see(std::vector<Isosurface>& surfaces, std::size_t added) {
         if (encloses)
             outer.opacity = std::min(outer.opacity, kSeenThrough);
     }
+}
+
+glm::vec3 free_color(const std::vector<Isosurface>& surfaces) {
+    const auto& palette = render::surface_palette();
+    const auto free = std::ranges::find_if(palette, [&](const glm::vec3& color) {
+        return std::ranges::find(surfaces, color, &Isosurface::color) == surfaces.end();
+    });
+    return free == palette.end() ? palette.front() : *free;
 }
 
 Commands with_another(const PanelModel& model) {

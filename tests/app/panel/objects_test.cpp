@@ -106,6 +106,21 @@ TEST_F(Objects, OfPiecesAreFreedByTheirEyes) {
     EXPECT_TRUE(asked_.pieces.all());
 }
 
+TEST_F(Objects, OfPiecesThatStandAloneGetAColorOfTheirOwn) {
+    const ItemAct& color = kind("piece").acts[0];
+    ASSERT_TRUE(color.offered(model(), 0));
+    EXPECT_FALSE(color.offered(model(), 1)) << "a hidden one";
+    EXPECT_FALSE(color.offered(model(), 2)) << "dust";
+    Commands commands;
+    color.run(model(), 0, commands);
+    obey(commands);
+    EXPECT_EQ(item("surface", 2).value, item("surface", 1).value);
+    EXPECT_NE(item("surface", 2).color, item("surface", 1).color);
+    EXPECT_TRUE(item("surface", 2).picked);
+    EXPECT_EQ(asked_.pieces.only.back(), (interaction::PlacedPiece{2, {1, 1, 1}}));
+    EXPECT_EQ(asked_.pieces.hidden.back(), (interaction::PlacedPiece{1, {1, 1, 1}}));
+}
+
 TEST_F(Objects, AreRemovedOneByOneButForTheLastSurface) {
     for (const ItemKind& kind : item_kinds())
         for (std::size_t left = kind.count(model()); left > kind.least; --left) {

@@ -1,6 +1,7 @@
 // Pieces that are hidden leave nothing in the picture, however cells are drawn.
 #include "tests/support/session_fixture.h"
 
+#include "app/panel/parts/piece_lines.h"
 #include "app/session/piece_lister.h"
 #include "index/extraction/cell_ray.h"
 #include "render/gl/driver.h"
@@ -114,6 +115,31 @@ TEST_P(SessionPieces, LeaveNoPixelWhereTheyAreHidden) {
         commands.pieces = interaction::ShownPieces{};
         EXPECT_EQ(apart(picture(session, commands), all), 0u);
     }
+}
+
+TEST_P(SessionPieces, HaveAColorOfTheirOwnAsSurfacesOfTheirOwn) {
+    const auto both = balls(true), left = balls(false);
+    Session session(config_of(Footprint::surface), both, *context_),
+        alone(config_of(Footprint::surface), left, *context_);
+    const render::Image all = picture(session, plain(Footprint::surface));
+    const std::size_t cells = session.log().frames().back().cells;
+    const std::size_t right = apart(all, picture(alone, plain(Footprint::surface)));
+    auto colored = colored_piece(session.state(), {0, {31, 15.5, 19.5}});
+    ASSERT_TRUE(colored);
+    EXPECT_NE(colored->isosurfaces->back().color, colored->isosurfaces->front().color);
+    colored->isosurfaces->back().color = {0, 0, 1};
+    const render::Image image = picture(session, *colored);
+    EXPECT_EQ(session.log().frames().back().cells, cells) << "each piece is there once";
+    std::size_t blue = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            blue += image.at(x, y)[2] > image.at(x, y)[0] + 30;
+    EXPECT_GT(blue, right * 9 / 10);
+    ASSERT_TRUE(session.history().undo());
+    EXPECT_EQ(apart(picture(session, *session.history().undo()), all), 0u);
+    ExplorerState full = session.state();
+    full.isosurfaces.resize(interaction::kMostIsosurfaces);
+    EXPECT_FALSE(colored_piece(full, {0, {31, 15.5, 19.5}}));
 }
 
 TEST_P(SessionPieces, AreNotPickedWhereTheyAreHidden) {

@@ -63,7 +63,7 @@ TEST(ControlRequest, SaysWhatIsWrongInOneLine) {
     EXPECT_EQ(refusal_of(R"({"verb":"profile","places":[[1,2,3]]})"),
               "places: expected a list of 2 to 256, got [[1,2,3]]");
     EXPECT_EQ(refusal_of(R"({"verb":"profile","places":[[1,2,3],[1,2,"x"]]})"),
-              "places: expected a number, got \"x\"");
+              "places: expected a finite number, got \"x\"");
     EXPECT_EQ(refusal_of(R"({"verb":"profile","isovalue":1})"),
               "request: unknown key \"isovalue\"");
     EXPECT_EQ(refusal_of(R"({"verb":"state","id":[1]})"),

@@ -37,7 +37,7 @@ inline constexpr std::size_t kProfileSamples = 513;
 /// @throws Stopped when it is asked to stop
 Profile profile_of(const ProfileQuery& query, const std::stop_token& stop = {});
 
-/// Of each sample the distance, x, y, z and the value.
+/// Five numbers for each sample: its distance, x, y, z and value.
 std::vector<double> rows_of(const Profile& profile);
 
 /// A table: `distance,x,y,z,value`, a row for each sample; nothing for a value that is not there.

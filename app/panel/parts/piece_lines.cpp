@@ -2,9 +2,9 @@
 #include "app/panel/parts/piece_lines.h"
 
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/free_color.h"
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/rows.h"
-#include "app/panel/parts/surfaces_section.h"
 #include "app/panel/parts/theme.h"
 #include "app/text.h"
 #include "interaction/navigation/navigation.h"

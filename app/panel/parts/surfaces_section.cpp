@@ -4,6 +4,7 @@
 #include "app/frame/step_survey.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/eye_memory.h"
+#include "app/panel/parts/free_color.h"
 #include "app/panel/parts/ghost_rows.h"
 #include "app/panel/parts/histogram.h"
 #include "app/panel/parts/icons.h"
@@ -11,7 +12,6 @@
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/theme.h"
 #include "app/text.h"
-#include "render/passes/color_map.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -201,14 +201,6 @@ void let_see(std::vector<Isosurface>& surfaces, std::size_t added) {
         if (encloses)
             outer.opacity = std::min(outer.opacity, kSeenThrough);
     }
-}
-
-glm::vec3 free_color(const std::vector<Isosurface>& surfaces) {
-    const auto& palette = render::surface_palette();
-    const auto free = std::ranges::find_if(palette, [&](const glm::vec3& color) {
-        return std::ranges::find(surfaces, color, &Isosurface::color) == surfaces.end();
-    });
-    return free == palette.end() ? palette.front() : *free;
 }
 
 Commands with_another(const PanelModel& model) {

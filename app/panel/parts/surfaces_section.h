@@ -20,9 +20,6 @@ void surfaces_section(const PanelModel& model, PanelPages& pages, interaction::C
 /// @param added its place among the surfaces
 void let_see(std::vector<interaction::Isosurface>& surfaces, std::size_t added);
 
-/// A color that no surface has, as long as there is one.
-glm::vec3 free_color(const std::vector<interaction::Isosurface>& surfaces);
-
 inline constexpr float kSeenThrough = 0.45f; ///< opacity of a surface that shows what is behind it
 
 /// Commands that add a surface, which becomes the picked one. There is room for it.

@@ -62,7 +62,7 @@ class ReproduceTest : public testing::Test {
 
     std::vector<std::string> pictures(const std::vector<std::string>& more) {
         std::filesystem::remove_all(folder_.path() / "out");
-        std::vector<std::string> arguments{"replay", "walk.jsonl", "--stamps", "--out", "out"};
+        std::vector<std::string> arguments = as_words("replay walk.jsonl --stamps --out out");
         arguments.insert(arguments.end(), more.begin(), more.end());
         const ChildResult result = isochron(arguments);
         EXPECT_EQ(result.status, 0) << result.err;
@@ -114,8 +114,8 @@ TEST_F(ReproduceTest, EveryFootprintAndStereoModeIsTheSame) {
     expect_same({}, 3);
     expect_same({"--quality", "fast"}, 3);
     expect_same({"--quality", "fast", "--shape", "voxel"}, 3);
-    expect_same({"--footprint", "gaussian", "--stereo", "anaglyph_red_cyan"}, 3);
-    expect_same({"--stereo", "checkerboard", "--size", "80", "70", "--ray"}, 3);
+    expect_same(as_words("--footprint gaussian --stereo anaglyph_red_cyan"), 3);
+    expect_same(as_words("--stereo checkerboard --size 80 70 --ray"), 3);
     expect_same({"--caption"}, 3);
 }
 

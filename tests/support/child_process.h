@@ -7,8 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <iterator>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,12 +14,6 @@
 namespace isochron::app {
 
 using test_support::TestFolder;
-
-/// The words of a command, parted at spaces: nothing is quoted.
-inline std::vector<std::string> as_words(const std::string& command) {
-    std::istringstream line(command);
-    return {std::istream_iterator<std::string>(line), {}};
-}
 
 struct ChildOptions {
     std::string out{};                  ///< file for its stdout, which is then not in the result

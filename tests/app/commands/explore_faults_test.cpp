@@ -51,8 +51,9 @@ class ExploreFaults : public Faults {
 };
 
 TEST_F(ExploreFaults, LeaveWholePicturesOfAReplay) {
-    const std::vector<std::string> command =
-        as_words("replay walk.jsonl --every 3 --out shots --report r.json --size 96 64");
+    const std::vector<std::string> command{"replay", "walk.jsonl", "--every",  "3",
+                                           "--out",  "shots",      "--report", "r.json",
+                                           "--size", "96",         "64"};
     ASSERT_EQ(isochron(command).status, 0);
     const std::vector<std::string> all = names_in("shots");
     ASSERT_FALSE(all.empty());
@@ -86,8 +87,8 @@ TEST_F(ExploreFaults, LeaveWholePicturesOfAReplay) {
 }
 
 TEST_F(ExploreFaults, LeaveTheFramesOfAMovieOrNone) {
-    const std::vector<std::string> command =
-        as_words("movie walk.jsonl -o frames --rate 10 --size 96 64");
+    const std::vector<std::string> command{"movie", "walk.jsonl", "-o", "frames", "--rate",
+                                           "10",    "--size",     "96", "64"};
     ASSERT_EQ(isochron(command).status, 0);
     const std::vector<std::string> all = names_in("frames"), around = folder.names();
     int met = 0;
@@ -110,7 +111,7 @@ TEST_F(ExploreFaults, LeaveAConfigurationOrNone) {
                              "<Machine Name=\"a\" Environment=\"DISPLAY=:0\" "
                              "LowerLeft=\"-1 -1 -1\" LowerRight=\"1 -1 -1\" "
                              "UpperRight=\"1 1 -1\"/></Process></pvx>");
-    const std::vector<std::string> command = as_words("config import cave.pvx -o cave.toml");
+    const std::vector<std::string> command{"config", "import", "cave.pvx", "-o", "cave.toml"};
     const ChildResult imported = isochron(command);
     ASSERT_EQ(imported.status, 0) << imported.err;
     const std::string right = folder.read("cave.toml");

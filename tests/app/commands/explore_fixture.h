@@ -3,7 +3,7 @@
 
 #include "tests/support/session_fixture.h"
 
-#include "tests/support/child_process.h"
+#include "tests/support/as_words.h"
 #include "tests/support/eventually.h"
 #include "tests/support/paths.h"
 #include "tests/support/virtual_display.h"

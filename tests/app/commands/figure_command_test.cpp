@@ -1,4 +1,5 @@
 // A figure has its words as text, in the sizes that its file says, and is made again.
+#include "tests/support/as_words.h"
 #include "tests/support/session_fixture.h"
 
 #include "index/indexing/index_build.h"

@@ -136,7 +136,7 @@ TEST_F(HeadsetProgram, AMissingRuntimeIsLookedForAndTheWindowShowsTheScene) {
     setenv("XR_RUNTIME_JSON", "/nowhere/runtime.json", 1);
     const std::string told = "headset not there, looking for it: OpenXR: no runtime";
     const ChildResult result =
-        explore(as_words("--config hmd --size 320 160 --isovalue 8"),
+        explore({"--config", "hmd", "--size", "320", "160", "--isovalue", "8"},
                 {.interrupt_after = told, .dies_after = test_support::kPatience});
     EXPECT_EQ(result.status, 128 + SIGINT) << result.err;
     EXPECT_THAT(result.err, HasSubstr(told));

@@ -60,7 +60,7 @@ TEST_F(InstallationCommand, CheckConfigNamesWhatIsWrongAndFails) {
 
 TEST_F(InstallationCommand, CheckConfigDrawsTheRoomAndReplacesOnlyItsOwnPictures) {
     folder.write("notes.png", "mine");
-    const std::vector<std::string> draw = as_words("explore --check-config cave4 --picture");
+    const std::vector<std::string> draw{"explore", "--check-config", "cave4", "--picture"};
     const auto into = [&](const std::string& file, const std::vector<std::string>& more = {}) {
         std::vector<std::string> arguments = draw;
         arguments.push_back(file);
@@ -82,10 +82,10 @@ TEST_F(InstallationCommand, CheckConfigDrawsTheRoomAndReplacesOnlyItsOwnPictures
     folder.write("lab.toml", "[[windows]]\n[[windows.viewports]]\n[windows.viewports.projection]\n"
                              "lower_left = [1, 1, -1]\nupper_left = [1, 3, -1]\nupper_right = [-1, "
                              "3, -1]\n");
-    result = isochron(as_words("explore --check-config lab.toml --picture lab.png"));
+    result = isochron({"explore", "--check-config", "lab.toml", "--picture", "lab.png"});
     EXPECT_EQ(result.status, 1);
     EXPECT_EQ(folder.read("lab.png").substr(1, 3), "PNG");
-    result = isochron(as_words("explore --check-config lab.toml --picture lab.toml"));
+    result = isochron({"explore", "--check-config", "lab.toml", "--picture", "lab.toml"});
     EXPECT_NE(result.status, 0);
     EXPECT_THAT(folder.read("lab.toml"), testing::StartsWith("[[windows]]"));
 }
@@ -104,8 +104,8 @@ TEST_F(InstallationCommand, AShippedNameMeansTheShippedConfigurationWhateverLies
 
 TEST_F(InstallationCommand, ImportWritesAConfigurationThatIsSound) {
     folder.write("cave.pvx", kPvx);
-    ChildResult result =
-        isochron(as_words("config import cave.pvx -o cave.toml --unit 0.5 --origin 0 0.4 0"));
+    ChildResult result = isochron({"config", "import", "cave.pvx", "-o", "cave.toml", "--unit",
+                                   "0.5", "--origin", "0", "0.4", "0"});
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.err, "");
     result = isochron({"explore", "--check-config", "cave.toml"});
@@ -119,7 +119,7 @@ TEST_F(InstallationCommand, ImportWritesAConfigurationThatIsSound) {
     EXPECT_EQ(result.status, 1);
     EXPECT_EQ(result.err, "isochron: bad.pvx:2: Machine: LowerRight is missing\n");
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "bad.toml"));
-    EXPECT_EQ(isochron(as_words("config import cave.pvx -o cave.pvx")).status, 1);
+    EXPECT_EQ(isochron({"config", "import", "cave.pvx", "-o", "cave.pvx"}).status, 1);
     EXPECT_EQ(folder.read("cave.pvx"), kPvx);
 }
 

@@ -78,7 +78,8 @@ class Kills : public CommandLine {
             std::filesystem::last_write_time(entry.path(),
                                              std::filesystem::file_time_type::clock::now() -
                                                  std::chrono::minutes(2));
-        EXPECT_EQ(isochron(as_words("info t0.raw --dims 14 11 9 --type f32")).status, 0);
+        EXPECT_EQ(isochron({"info", "t0.raw", "--dims", "14", "11", "9", "--type", "f32"}).status,
+                  0);
         for (const std::string& name : folder.names())
             EXPECT_FALSE(name.starts_with('.')) << name;
     }
@@ -134,18 +135,20 @@ TEST_F(Kills, OfABuildOfANewNameLeaveNothing) {
 TEST_F(Kills, OfAQueryLeaveAllIdsOrNone) {
     ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
     const std::vector<std::uint32_t> expected = active(3, 0.1);
-    kill(as_words("query a.isochron --isovalue 0.1 --step 3 --repeat 0 --ids ids.bin"), [&] {
-        if (std::filesystem::exists(folder.path() / "ids.bin")) {
-            EXPECT_EQ(ids_in("ids.bin"), expected);
-        }
-        std::filesystem::remove(folder.path() / "ids.bin");
-    });
+    kill({"query", "a.isochron", "--isovalue", "0.1", "--step", "3", "--repeat", "0", "--ids",
+          "ids.bin"},
+         [&] {
+             if (std::filesystem::exists(folder.path() / "ids.bin")) {
+                 EXPECT_EQ(ids_in("ids.bin"), expected);
+             }
+             std::filesystem::remove(folder.path() / "ids.bin");
+         });
 }
 
 TEST_F(Kills, OfAChangeLeaveWholeListsOrNone) {
     ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
-    kill_writer(as_words("change a.isochron --isovalue 0.1 --step 0 --to-step 3 --added come.bin "
-                         "--removed gone.bin"),
+    kill_writer({"change", "a.isochron", "--isovalue", "0.1", "--step", "0", "--to-step", "3",
+                 "--added", "come.bin", "--removed", "gone.bin"},
                 {"come.bin", "gone.bin"});
 }
 
@@ -158,12 +161,12 @@ TEST_F(Kills, OfAnExportLeaveWholeSurfacesOrNone) {
     kill_writer(
         {"export", "a.isochron", "--isovalue", "0.1", "-o", "all.glb", "--format", "glb-animation"},
         {"all.glb"});
-    kill_writer(as_words("export a.isochron --isovalue 0.1 --steps 0:1 -o s.vtp"),
+    kill_writer({"export", "a.isochron", "--isovalue", "0.1", "--steps", "0:1", "-o", "s.vtp"},
                 {"s_0000.vtp", "s_0001.vtp", "s.pvd"});
 }
 
 TEST_F(Kills, OfAGeneratorLeaveWholeFilesOrNone) {
-    kill_writer(as_words("generate sphere --out made --steps 2 --force"),
+    kill_writer({"generate", "sphere", "--out", "made", "--steps", "2", "--force"},
                 {"made/sphere.pvd", "made/sphere.json"});
 }
 

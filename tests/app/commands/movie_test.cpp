@@ -1,4 +1,5 @@
 // A movie has exactly the frames that follow from its rate and its recording's length.
+#include "tests/support/as_words.h"
 #include "tests/support/session_fixture.h"
 
 #include "app/loop/replay.h"

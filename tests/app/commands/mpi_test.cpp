@@ -75,8 +75,8 @@ TEST_F(MpiBuild, GivesTheSameBytesOfSeveralArrays) {
                      "kinds: vector domain domain domain\nencoding: raw\n\n" +
                          pairs);
     }
-    const std::vector<std::string> given =
-        as_words("v?.nrrd --array values.0 --array values.1 --array values.magnitude");
+    const std::vector<std::string> given{"v?.nrrd",  "--array", "values.0",        "--array",
+                                         "values.1", "--array", "values.magnitude"};
     ASSERT_EQ(build_of(0, given, "alone").status, 0);
     for (const int processes : {2, 3}) {
         const ChildResult result = build_of(processes, given, "job");

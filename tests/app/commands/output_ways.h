@@ -1,7 +1,7 @@
 // Every way to tell a command where to write.
 #pragma once
 
-#include "tests/support/child_process.h"
+#include "tests/support/as_words.h"
 
 #include <ostream>
 #include <string>

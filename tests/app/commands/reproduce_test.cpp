@@ -1,5 +1,6 @@
 // A picture that the program has written is drawn again from its note, with the same bytes.
 #include "tests/app/explore/small_cave.h"
+#include "tests/support/as_words.h"
 #include "tests/support/child_process.h"
 #include "tests/support/index_repair.h"
 #include "tests/support/session_fixture.h"

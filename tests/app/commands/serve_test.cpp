@@ -135,9 +135,10 @@ TEST_F(ServeCommand, ItsLinkOpensTheIndexInTheProgram) {
 
 TEST_F(ServeCommand, FollowsAnIndexThatGrowsStateByState) {
     setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
-    ASSERT_EQ(
-        isochron(as_words("build t0.raw t1.raw --dims 14 11 9 --type f32 -o g.isochron")).status,
-        0);
+    ASSERT_EQ(isochron({"build", "t0.raw", "t1.raw", "--dims", "14", "11", "9", "--type", "f32",
+                        "-o", "g.isochron"})
+                  .status,
+              0);
     const Serving server(folder.path() / "g.isochron", "--follow");
     const auto tag = [&] {
         const std::string head = server.get("/g.isochron", server.token + "Range: bytes=0-7\r\n");
@@ -158,11 +159,10 @@ TEST_F(ServeCommand, FollowsAnIndexThatGrowsStateByState) {
                          "--force"});
     };
     expect_failure(at_step("2"), 1, "expected 0 to 1");
-    ASSERT_EQ(
-        isochron(
-            as_words("build t0.raw t1.raw t2.raw --dims 14 11 9 --type f32 -o g.isochron --append"))
-            .status,
-        0);
+    ASSERT_EQ(isochron({"build", "t0.raw", "t1.raw", "t2.raw", "--dims", "14", "11", "9", "--type",
+                        "f32", "-o", "g.isochron", "--append"})
+                  .status,
+              0);
     EXPECT_NE(tag(), first);
     ASSERT_EQ(at_step("2").status, 0);
     EXPECT_EQ(folder.read("ids.bin").size(), 4 * active(2, 0.5).size());
@@ -177,7 +177,7 @@ TEST_F(ServeCommand, WritesASiteIntoAFolderOfItsOwn) {
     EXPECT_EQ(isochron({"serve", "a.isochron", "--write-site", "site"}).status, 0) << "its own";
     fs::create_directory(folder.path() / "foreign");
     folder.write("foreign/letter", "x");
-    const ChildResult refused = isochron(as_words("serve a.isochron --write-site foreign"));
+    const ChildResult refused = isochron({"serve", "a.isochron", "--write-site", "foreign"});
     EXPECT_NE(refused.status, 0);
     EXPECT_THAT(refused.err, HasSubstr("nothing is written"));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path() / "foreign"), {}), 1);

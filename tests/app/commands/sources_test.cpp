@@ -3,6 +3,7 @@
 #include "app/indexing/file_patterns.h"
 
 #include "index/error.h"
+#include "tests/support/as_words.h"
 #include "tests/support/child_process.h"
 #include "tests/support/paths.h"
 

@@ -303,7 +303,7 @@ std::vector<Mistake> mistakes_of_windows() {
          in_window("[[windows.viewports]]", "[[windows.viewports]]\nsize = [1200, 1200]")},
         {"size", "a viewport beyond its window",
          in_window("[[windows.viewports]]", "[[windows.viewports]]\nposition = [0.5, 0]")},
-        {"viewports", "viewports over each other",
+        {"windows.viewports: ", "viewports over each other",
          in_window("[[windows.viewports]]", "[[windows.viewports]]\nsize = [0.5, 1]\n"
                                             "[[windows.viewports]]")},
         {"rendering.context", "nothing to be seen",
@@ -415,7 +415,7 @@ std::vector<Mistake> mistakes_of_viewers() {
          with(powerwall(), words({0, 1.7, 0}), "[0, 0.017, 0]")},
         {"viewer.position", "origin in the middle, viewer from the floor",
          moved(cave(), [](Point p) { return Point{p[0], p[1] - 1.5, p[2]}; })},
-        {"viewers", "no viewport for a viewer",
+        {"warning: viewers: ", "no viewport for a viewer",
          "[[viewers]]\nname = \"a\"\n[[viewers]]\nname = "
          "\"b\"\n"},
         {"viewers.head", "one head for two",

@@ -136,6 +136,19 @@ TEST_F(RoomKeysTest, ACommandIsFoundAndRunByARayAlone) {
     EXPECT_FALSE(layer_.pages().any());
 }
 
+TEST_F(RoomKeysTest, ASettingIsFoundByARayAlone) {
+    ray(std::nullopt, false);
+    const PanelBox top = layer_.layout().top;
+    press_at({top.high.x - 24, (top.low.y + top.high.y) / 2});
+    press_word("what do you want to do?");
+    for (const char* const key : {"g", "l", "o", "s", "s"})
+        press_word(key);
+    press_word("accept");
+    EXPECT_EQ(press_word("material: glossy").look,
+              (interaction::Look{.material = interaction::Material::glossy}));
+    EXPECT_FALSE(layer_.pages().any());
+}
+
 TEST_F(RoomKeysTest, AnArrayIsChosenOfAllByARayAlone) {
     offer_three_arrays();
     press_word("Data");

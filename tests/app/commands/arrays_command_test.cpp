@@ -11,10 +11,8 @@
 namespace isochron::app {
 namespace {
 
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 
 /// The series in files of three arrays: `rho` as it is, `heat` its negative, and the vector `wind`,
 /// of which one component is not 0.
@@ -158,10 +156,9 @@ TEST_F(ArraysCommand, BehindTwoDashesTheCommandForEachHasItsFiles) {
     // A component goes with one array.
     EXPECT_THAT(
         isochron(as_words("build -o a.isochron --component 1 -- v.vtk")).err,
-        AllOf(HasSubstr("\nisochron build -o a.isochron --component 1 --array wind -- v.vtk\n"
-                        "isochron build -o a.isochron --component 1 --array swirl -- "
-                        "v.vtk\n"),
-              Not(HasSubstr("--all-arrays"))));
+        testing::StartsWith("isochron build -o a.isochron --component 1 --array wind -- v.vtk\n"
+                            "isochron build -o a.isochron --component 1 --array swirl -- v.vtk\n"
+                            "isochron: v.vtk: several arrays"));
 }
 
 TEST_F(ArraysCommand, WhatIsComputedMayBeAmongThem) {

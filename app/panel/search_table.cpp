@@ -525,16 +525,18 @@ Commands with_picked(const PanelModel& model, const Change& change) {
 void add_surfaces(Lines& lines) {
     const PanelModel& model = lines.model();
     const auto& surfaces = model.asked.isosurfaces;
-    const std::string& unit = model.picked_info().value_unit;
+    const auto said = [&info = model.picked_info()](double value) {
+        return with_unit(value, info.value_unit, info.digits);
+    };
     const index::IndexStats& stats = model.picked_stats();
     const auto with_opacity = [&model](double opacity) {
         return with_picked(model, [opacity](interaction::Isosurface& surface) {
             surface.opacity = static_cast<float>(opacity);
         });
     };
-    lines.control("isovalue", "isovalue", with_unit(model.asked.isovalue(), unit), kSurfaces)
-        .with_number = [&unit](double number) {
-        NumberEffect effect{with_unit(number, unit), {}};
+    lines.control("isovalue", "isovalue", said(model.asked.isovalue()), kSurfaces)
+        .with_number = [said](double number) {
+        NumberEffect effect{said(number), {}};
         effect.commands.isovalue = number;
         return effect;
     };
@@ -542,7 +544,7 @@ void add_surfaces(Lines& lines) {
         const double usual = quantile(stats, kFirstQuantile);
         SearchLine& line = lines.add({.name = "usual_isovalue",
                                       .words = "isovalue: the usual one of these values",
-                                      .value = with_unit(usual, unit)});
+                                      .value = said(usual)});
         line.commands.isovalue = usual;
     }
     const double opacity = surfaces[model.asked.picked].opacity;
@@ -605,7 +607,8 @@ void add_surfaces(Lines& lines) {
                   .value = words_for_pieces(model)})
             .commands.pieces = interaction::ShownPieces{};
     lines.control("histogram", "histogram of the values",
-                  range_text(stats.low, stats.high, unit), kSurfaces);
+                  range_text(stats.low, stats.high, model.picked_info().value_unit),
+                  kSurfaces);
 }
 
 void add_ghosts(Lines& lines) {

@@ -54,6 +54,7 @@ struct ShownValues {
     bool operator==(const ShownValues&) const = default;
 };
 
+    int digits = index::kFewestDigits; ///< significant ones in which its values are said
 /// A slice, and how its values are shown.
 struct ShownSlice {
     index::SliceValuesPtr values;

@@ -291,6 +291,7 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     const bool again = is_whole && kept_.draw_again(picture, views);
     const auto background = background_of(picture.look);
     if (background && part.begins && !again && !picture.transparent)
+    info_.digits = values.digits;
         for (const render::View& view : views)
             background_pass_.draw(view, *background);
     // Lines have soft edges, which blend with the pixels below, so lines come after the cells. Only
@@ -474,10 +475,11 @@ Scene::CornerWords Scene::words_in_corners(const render::View& view, const Pictu
         for (const ShownSlice& slice : picture.slices)
             if (std::ranges::find(scales, slice.scale) == scales.end())
                 scales.push_back(slice.scale);
-        words.legend = legend_quads(
-            {picture.isosurfaces, info_.value_unit, scales, picture.scale && picture.surfaces,
-             overlay, picture.values.array, lines_of_further(picture), lines_of_ghosts(picture)},
-            text_pass_, view.size, share);
+        words.legend =
+            legend_quads({picture.isosurfaces, info_.value_unit, info_.digits, scales,
+                          picture.scale && picture.surfaces, overlay, picture.values.array,
+                          lines_of_further(picture), lines_of_ghosts(picture)},
+                         text_pass_, view.size, share);
     }
     if (picture.orientation)
         words.orientation =

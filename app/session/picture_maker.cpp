@@ -143,7 +143,7 @@ bool PictureMaker::aids_lie_over(const ExplorerState& state) const {
 
 ShownValues PictureMaker::shown_values(const ExplorerState& state) const {
     const index::SeriesInfo& info = arrays_.shown(state).info();
-    return {info.array, info.value_unit, info.type};
+    return {info.array, info.value_unit, info.type, info.digits};
 }
 
 Picture PictureMaker::make(const Frame& frame, const interaction::InputState& seen) {

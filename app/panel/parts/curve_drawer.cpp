@@ -95,7 +95,7 @@ std::vector<Choice> choices_of(const PanelModel& model) {
 std::string words_of(const PanelModel& model, std::size_t surface) {
     const index::SeriesInfo& info = model.info_of(surface);
     return (model.arrays.of(surface) ? info.array + " " : "") +
-           with_unit(model.asked.isosurfaces[surface].isovalue, info.value_unit);
+           with_unit(model.asked.isosurfaces[surface].isovalue, info.value_unit, info.digits);
 }
 
 Shown shown_in(const PanelModel& model) {
@@ -112,13 +112,13 @@ Shown shown_in(const PanelModel& model) {
     return shown;
 }
 
-/// Counts have all their digits.
-std::string number_text(double value, const std::string& unit) {
+/// Counts have all their digits. @param digits most significant ones of other numbers
+std::string number_text(double value, const std::string& unit, int digits = index::kFewestDigits) {
     constexpr double kMostCounted = 1e15;
     if (!std::isfinite(value))
         return "-";
     if (!unit.empty() || value != std::floor(value) || std::abs(value) > kMostCounted)
-        return with_unit(value, unit);
+        return with_unit(value, unit, digits);
     return (value < 0 ? "-" : "") + grouped(static_cast<std::uint64_t>(std::abs(value)));
 }
 
@@ -332,7 +332,8 @@ void profile_crossings(const PanelModel& model, const ImVec2& size) {
     for (const interaction::Isosurface& each : model.asked.isosurfaces) {
         if (each.opacity <= 0)
             continue;
-        const std::string words = with_unit(each.isovalue, model.info.value_unit);
+        const std::string words =
+            with_unit(each.isovalue, model.info.value_unit, model.info.digits);
         const std::vector<Crossing> all = crossings_of(profile.values, each.isovalue);
         swatch(line_color(each));
         fitted_text((all.empty() ? "never crosses " : "crosses ") + words,

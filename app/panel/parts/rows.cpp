@@ -7,6 +7,7 @@
 #include "app/panel/parts/theme.h"
 #include "app/text.h"
 
+#include <fmt/format.h>
 #include <imgui_internal.h>
 
 #include <algorithm>
@@ -201,14 +202,14 @@ LinePress table_line(bool chosen, float height) {
     return even ? LinePress::twice : LinePress::once;
 }
 
-std::string format_with(const std::string& unit, const std::string& words) {
+std::string format_with(const std::string& unit, const std::string& words, int digits) {
     std::string format;
     const auto add = [&](const std::string& text) {
         for (const char c : text)
             format += c == '%' ? "%%" : std::string(1, c);
     };
     add(words);
-    format += format.empty() ? "%.6g" : " %.6g";
+    format += fmt::format("{}%.{}g", format.empty() ? "" : " ", digits);
     if (!unit.empty())
         add(" " + unit);
     return format;

@@ -1,6 +1,8 @@
 // Rows of the panel's sections: the label in a column at the left, the control beside it.
 #pragma once
 
+#include "index/volume/value_type.h"
+
 #include <imgui.h>
 
 #include <cstddef>
@@ -64,6 +66,8 @@ LinePress table_line(bool chosen, float height = 0.0f);
 
 /// The format of a number with its unit, behind words if there are any; percent signs of both are
 /// escaped.
-std::string format_with(const std::string& unit, const std::string& words = {});
+/// @param digits significant ones
+std::string format_with(const std::string& unit, const std::string& words = {},
+                        int digits = index::kFewestDigits);
 
 } // namespace isochron::app

@@ -76,6 +76,20 @@ TEST_F(Objects, SayWhatThereIsWithItsValue) {
     EXPECT_EQ(words_for_items(model()), "1 of 1 shown") << "a plain session has its surface";
 }
 
+TEST_F(Objects, SayValuesInTheDigitsThatTellThoseOfTheirArrayApart) {
+    info_.digits = 8;
+    asked_.isosurfaces = {{.isovalue = 101325.546}};
+    asked_.mark.point->value = 101321.25;
+    EXPECT_EQ(item("surface", 0).value, "101325.55 1/s");
+    EXPECT_EQ(item("mark", 2).value, "101321.25 1/s");
+    asked_.panel = true;
+    frame();
+    frame();
+    EXPECT_TRUE(
+        place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), "101325.55 1/s"))
+        << "in the field of the isovalue, too";
+}
+
 TEST_F(Objects, AreHiddenByTheirEyesWhichBringThemBackAsTheyWere) {
     const ExplorerState before = asked_;
     for (const ItemKind& kind : item_kinds()) {

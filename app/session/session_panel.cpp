@@ -63,10 +63,11 @@ PanelModel SessionPanel::told(PanelModel model, PanelPlace place) const {
         model.sessions = sessions_;
     model.notes.past = past_;
     model.notes.messages = messages_;
-    model.notes.standing = outputs_.headset() && outputs_.shows_windows()
-                               ? "No picture in the headset: the window shows the data instead. " +
-                                     outputs_.headset()->description()
-                               : standing_;
+    if (outputs_.headset() && outputs_.shows_windows())
+        model.notes.standing = "No picture in the headset: the window shows the data instead. " +
+                               outputs_.headset()->description();
+    else if (model.notes.standing.empty())
+        model.notes.standing = standing_;
     model.place = place;
     return model;
 }

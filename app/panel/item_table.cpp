@@ -336,7 +336,10 @@ Item ruler_item(const PanelModel& model, std::size_t i) {
     const interaction::Ruler& ruler = model.asked.rulers.list[i];
     const std::string value = interaction::measured_text(ruler, model.data.unit);
     return {.words = fmt::format("{} {}", ruler.angle ? "angle" : "ruler", ruler.name),
-            .value = value.empty() ? "more places" : value,
+            .value = !ruler.complete()
+                         ? fmt::format("{} of {} places", ruler.places.size(), ruler.wanted())
+                     : value.empty() ? "no angle"
+                                     : value,
             .name = ruler.name,
             .named = true,
             .shown = ruler.shown,

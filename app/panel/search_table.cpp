@@ -282,16 +282,16 @@ constexpr OtherNames kOtherNames[] = {
     {"loop", "repeat, cycle, endless, play once, loop animation, loop playback"},
     {"ping_pong", "pingpong, bounce, boomerang, to and fro, forth and back, palindrome, swing"},
     {"speed",
-     "playback speed, play speed, animation speed, slower, faster, time scale, slow motion, "
+     "playback speed, play speed, animation speed, slower, slowly, faster, time scale, slow motion, "
      "tempo, pace, duration"},
     {"rate", "fps, frames per second, steps per second, frame rate of playing, animation rate"},
     {"faster", "faster, speed up, playback speed, double speed"},
-    {"slower", "slower, slow down, slow motion, playback speed, half speed"},
+    {"slower", "slower, slowly, slow down, slow motion, playback speed, half speed"},
     {"speed_unit", "real time, sequence, snap to time steps, play mode, animation mode"},
     {"every", "stride, skip frames, every nth, time stride, subsample time, frame step"},
     {"between_steps",
      "interpolate, interpolation, blend, smooth playback, smooth animation, tween, "
-     "temporal interpolation, morph, in between, stutter, jumps, jerky"},
+     "temporal interpolation, morph, in between, slowly, gradually, stutter, jumps, jerky"},
     {"follow", "live, latest, newest step, in situ, auto update, watch, tail, monitor"},
     {"range_first", "start frame, trim start, time range, in point, loop start"},
     {"range_last", "end frame, trim end, time range, out point, loop end"},

@@ -113,8 +113,13 @@ void SessionPanel::draw_alone(const Facts& facts, interaction::Seconds time) {
 
 stereo::Margins SessionPanel::covered(const ExplorerState& state) const {
     const glm::ivec2 size = outputs_.windows().first().framebuffer_size();
-    return is_flat(state) ? over_.covered(size / places(state), rows_of(state))
-                          : stereo::Margins{};
+    return is_flat(state) ? over_.covered(size / places(state), rows_of(state)) : stereo::Margins{};
+}
+
+std::array<glm::vec2, 2> SessionPanel::corners(const ExplorerState& state) const {
+    if (covered(state) == stereo::Margins{})
+        return {};
+    return {kChipEnd / PanelLayer::kFontPixels, kCubeEnd / PanelLayer::kFontPixels};
 }
 
 float SessionPanel::text_share(const ExplorerState& state) const {

@@ -349,6 +349,16 @@ void profile_crossings(const PanelModel& model, const ImVec2& size) {
     ImGui::EndChild();
 }
 
+/// The number in the most digits for which there is room, three at least, so that it is not cut.
+std::string number_within(float width, double value, const std::string& unit) {
+    constexpr int kFewest = 3;
+    int digits = index::kFewestDigits;
+    std::string words = number_text(value, unit);
+    while (--digits >= kFewest && ImGui::CalcTextSize(words.c_str()).x > width)
+        words = number_text(value, unit, digits);
+    return words;
+}
+
 /// The numbers of the present step: a line for each measure, a column for each surface.
 void table(const PanelModel& model, const Shown& shown, const ImVec2& size, Commands& commands) {
     constexpr float kName = 104.0f;
@@ -391,9 +401,9 @@ void table(const PanelModel& model, const Shown& shown, const ImVec2& size, Comm
             if (of_mark && i > 0)
                 continue;
             const StepCurve& curve = of_mark ? *model.curves.mark : *shown.surfaces[i].curve;
-            fitted_text(number_text(at_step(curve, choice.number, now), choice.unit),
-                        ImGui::GetContentRegionAvail().x,
-                        color_of(k == shown.chosen ? Ink::text : Ink::dim));
+            const float width = ImGui::GetContentRegionAvail().x;
+            fitted_text(number_within(width, at_step(curve, choice.number, now), choice.unit),
+                        width, color_of(k == shown.chosen ? Ink::text : Ink::dim));
         }
         ImGui::PopID();
     }

@@ -192,6 +192,20 @@ bool tick_field(const char* id, bool& on, const char* words) {
     return changed;
 }
 
+void go_on_within(float right, float width, float gap) {
+    const float apart = gap < 0 ? ImGui::GetStyle().ItemSpacing.x : gap;
+    if (ImGui::GetItemRectMax().x + apart + width <= right)
+        ImGui::SameLine(0.0f, apart);
+}
+
+float button_width(const char* words) {
+    return ImGui::CalcTextSize(words).x + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
+float tick_width(const char* words) {
+    return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x + ImGui::CalcTextSize(words).x;
+}
+
 LinePress table_line(bool chosen, float height) {
     ImGui::Selectable("##line", chosen, height > 0 ? 0 : ImGuiSelectableFlags_SpanAllColumns,
                       {0.0f, height});

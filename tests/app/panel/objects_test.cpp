@@ -70,7 +70,7 @@ TEST_F(Objects, SayWhatThereIsWithItsValue) {
                             "ghosts: 2 earlier, 0 later", "piece alone of vorticity 12 1/s",
                             "piece of vorticity 9.5 1/s", "dust below 20 cells",
                             "mark eye 4.25 1/s", "mark tail 5 1/s", "mark here 6 1/s", "ruler 1 5",
-                            "angle 2 more places", "curve: area over time"));
+                            "angle 2 1 of 3 places", "curve: area over time"));
     EXPECT_EQ(words_for_items(model()), "15 of 17 shown");
     asked_ = {};
     EXPECT_EQ(words_for_items(model()), "1 of 1 shown") << "a plain session has its surface";

@@ -63,7 +63,7 @@ enum class LinePress { none, once, twice };
 /// the usual one
 void go_on_within(float right, float width, float gap = -1.0f);
 float button_width(const char* words);
-float tick_width(const char* words); ///< of `tick_field`
+float tick_width(const char* words); ///< width of a `tick_field`
 
 /// A line over all columns of its table: a press chooses it, a second one soon after opens it, and
 /// a third one is a first one again. A press counts also in the frame in which a field of the same

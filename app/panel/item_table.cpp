@@ -58,15 +58,16 @@ auto& surfaces(const PanelModel& model, Commands& commands) {
 
 std::string surface_words(const PanelModel& model, std::size_t i) {
     const index::SeriesInfo& info = model.info_of(i);
-    return fmt::format("{} {}", info.array,
-                       with_unit(model.asked.isosurfaces[i].isovalue, info.value_unit));
+    return fmt::format(
+        "{} {}", info.array,
+        with_unit(model.asked.isosurfaces[i].isovalue, info.value_unit, info.digits));
 }
 
 Item surface_item(const PanelModel& model, std::size_t i) {
     const interaction::Isosurface& surface = model.asked.isosurfaces[i];
     const index::SeriesInfo& info = model.info_of(i);
     return {.words = info.array,
-            .value = with_unit(surface.isovalue, info.value_unit),
+            .value = with_unit(surface.isovalue, info.value_unit, info.digits),
             .name = fmt::format("{}", i + 1),
             .shown = surface.opacity > 0,
             .picked = model.asked.isosurfaces.size() > 1 && model.asked.picked == i,
@@ -293,9 +294,8 @@ bool is_the_mark(const PanelModel& model, std::size_t i) {
 Item mark_item(const PanelModel& model, std::size_t i) {
     const interaction::MarkedPoint& point = mark_at(model, i);
     const bool kept = i < model.asked.marks.size();
-    const std::string& unit = point.array.empty() ? model.info.value_unit : point.unit;
     return {.words = fmt::format("mark {}", kept ? model.asked.marks[i].name : "here"),
-            .value = with_unit(point.value, unit),
+            .value = value_text(point, model.info),
             .note = mark_text(point, model.info),
             .name = kept ? model.asked.marks[i].name : "here",
             .named = kept,
@@ -336,7 +336,10 @@ Item ruler_item(const PanelModel& model, std::size_t i) {
     const interaction::Ruler& ruler = model.asked.rulers.list[i];
     const std::string value = interaction::measured_text(ruler, model.data.unit);
     return {.words = fmt::format("{} {}", ruler.angle ? "angle" : "ruler", ruler.name),
-            .value = value.empty() ? "more places" : value,
+            .value = !ruler.complete()
+                         ? fmt::format("{} of {} places", ruler.places.size(), ruler.wanted())
+                     : value.empty() ? "no angle"
+                                     : value,
             .name = ruler.name,
             .named = true,
             .shown = ruler.shown,

@@ -70,10 +70,24 @@ TEST_F(Objects, SayWhatThereIsWithItsValue) {
                             "ghosts: 2 earlier, 0 later", "piece alone of vorticity 12 1/s",
                             "piece of vorticity 9.5 1/s", "dust below 20 cells",
                             "mark eye 4.25 1/s", "mark tail 5 1/s", "mark here 6 1/s", "ruler 1 5",
-                            "angle 2 more places", "curve: area over time"));
+                            "angle 2 1 of 3 places", "curve: area over time"));
     EXPECT_EQ(words_for_items(model()), "15 of 17 shown");
     asked_ = {};
     EXPECT_EQ(words_for_items(model()), "1 of 1 shown") << "a plain session has its surface";
+}
+
+TEST_F(Objects, SayValuesInTheDigitsThatTellThoseOfTheirArrayApart) {
+    info_.digits = 8;
+    asked_.isosurfaces = {{.isovalue = 101325.546}};
+    asked_.mark.point->value = 101321.25;
+    EXPECT_EQ(item("surface", 0).value, "101325.55 1/s");
+    EXPECT_EQ(item("mark", 2).value, "101321.25 1/s");
+    asked_.panel = true;
+    frame();
+    frame();
+    EXPECT_TRUE(
+        place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), "101325.55 1/s"))
+        << "in the field of the isovalue, too";
 }
 
 TEST_F(Objects, AreHiddenByTheirEyesWhichBringThemBackAsTheyWere) {

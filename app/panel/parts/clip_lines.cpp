@@ -22,22 +22,25 @@ using interaction::ClipPlane;
 using interaction::Commands;
 
 /// The box's ends along each axis, as indices of vertices, while it is shown.
-void box_fields(const PanelModel& model, Commands& commands) {
+void box_fields(const PanelModel& model, float end_of_line, Commands& commands) {
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+    constexpr float kEnd = 54.0f, kGap = 4.0f; // of a field, and before it
     interaction::ClipBox box = model.asked.clip_box;
     if (!box.shown)
         return;
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(color_of(Ink::dim), "box");
     for (int axis = 0; axis < 3; ++axis) {
+        const char* const name = kAxes[static_cast<std::size_t>(axis)];
         ImGui::PushID(axis);
-        ImGui::SameLine();
-        ImGui::TextColored(color_of(Ink::dim), "%s", kAxes[static_cast<std::size_t>(axis)]);
+        beside_or_below(ImGui::CalcTextSize(name).x + 2 * (kGap + kEnd), end_of_line);
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextColored(color_of(Ink::dim), "%s", name);
         const FieldRange range{.low = 0, .high = model.data.cells[axis]};
         for (const bool high : {false, true}) {
             double& end = high ? box.high[axis] : box.low[axis];
-            ImGui::SameLine(0.0f, 4.0f);
-            ImGui::SetNextItemWidth(54.0f);
+            ImGui::SameLine(0.0f, kGap);
+            ImGui::SetNextItemWidth(kEnd);
             number_field(high ? "##high" : "##low", end, range, "%.4g");
             tip("an end of the box, as the index of a vertex (--crop of commands counts so): drag, "
                 "or click and type");
@@ -50,8 +53,9 @@ void box_fields(const PanelModel& model, Commands& commands) {
 
 } // namespace
 
-void clip_lines(const PanelModel& model, Commands& commands) {
+void clip_lines(const PanelModel& model, float width, Commands& commands) {
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+    const float end = ImGui::GetCursorPosX() + width;
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(color_of(Ink::dim), "clip across");
     for (int axis = 0; axis < 3; ++axis) {
@@ -69,7 +73,7 @@ void clip_lines(const PanelModel& model, Commands& commands) {
         commands.clip_box = boxed ? interaction::whole_box(model.data) : interaction::ClipBox{};
     tip("a box along the data's axes outside which all is cut away: drag its faces");
     if (!model.asked.clip.shown) {
-        box_fields(model, commands);
+        box_fields(model, end, commands);
         return;
     }
     const float side = ImGui::GetFrameHeight();
@@ -81,10 +85,10 @@ void clip_lines(const PanelModel& model, Commands& commands) {
         commands.clip = ClipPlane{};
     const ClipPlane& now = model.asked.clip;
     interaction::Plane plane{now.point, now.normal};
-    plane_fields(model, plane, "the plane's normal: it points to the side that is cut away");
+    plane_fields(model, plane, end, "the plane's normal: it points to the side that is cut away");
     if (plane != interaction::Plane{now.point, now.normal})
         commands.clip = {true, plane.point, plane.normal};
-    box_fields(model, commands);
+    box_fields(model, end, commands);
 }
 
 } // namespace isochron::app

@@ -6,8 +6,9 @@
 
 namespace isochron::app {
 
-/// Two lines in the current window: buttons for planes across the axes, and the numbers of the
-/// plane that is shown.
-void clip_lines(const PanelModel& model, interaction::Commands& commands);
+/// Lines in the current window: buttons for planes across the axes, and the numbers of the plane
+/// and of the box that are shown.
+/// @param width of the longest line, panel pixels
+void clip_lines(const PanelModel& model, float width, interaction::Commands& commands);
 
 } // namespace isochron::app

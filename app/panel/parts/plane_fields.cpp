@@ -51,7 +51,13 @@ void place_field(const PanelModel& model, Plane& plane) {
 
 /// The three parts of the normal. What the user types stands there as it was typed, although the
 /// plane has the normal of length 1 in that direction.
-void normal_fields(Plane& plane, const char* effect) {
+void normal_fields(Plane& plane, float end, const char* effect) {
+    constexpr float kPart = 48.0f;
+    const char* const words = "normal";
+    beside_or_below(ImGui::CalcTextSize(words).x + 3 * (kPart + ImGui::GetStyle().ItemSpacing.x),
+                    end);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(color_of(Ink::dim), "%s", words);
     ImGuiStorage& kept = *ImGui::GetStateStorage();
     constexpr std::array<const char*, 3> kIds{"##nx", "##ny", "##nz"};
     glm::dvec3 typed;
@@ -65,7 +71,7 @@ void normal_fields(Plane& plane, const char* effect) {
     for (int axis = 0; axis < 3; ++axis) {
         const char* const id = kIds[static_cast<std::size_t>(axis)];
         ImGui::SameLine();
-        ImGui::SetNextItemWidth(48.0f);
+        ImGui::SetNextItemWidth(kPart);
         if (number_field(id, typed[axis], {.low = -1, .high = 1, .bounded = false}, "%.3g") &&
             std::isfinite(typed[axis]) && glm::length(typed) > 1e-6)
             plane.normal = glm::normalize(typed);
@@ -76,14 +82,12 @@ void normal_fields(Plane& plane, const char* effect) {
 
 } // namespace
 
-void plane_fields(const PanelModel& model, Plane& plane, const char* normal) {
+void plane_fields(const PanelModel& model, Plane& plane, float end, const char* normal) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(color_of(Ink::dim), "at");
     ImGui::SameLine();
     place_field(model, plane);
-    ImGui::SameLine();
-    ImGui::TextColored(color_of(Ink::dim), "normal");
-    normal_fields(plane, normal);
+    normal_fields(plane, end, normal);
 }
 
 } // namespace isochron::app

@@ -6,7 +6,9 @@
 
 namespace isochron::app {
 
-/// A line in the current window. @param normal tip of the normal's fields
-void plane_fields(const PanelModel& model, interaction::Plane& plane, const char* normal);
+/// A line in the current window, or two where they do not fit into one.
+/// @param end of the line, as ImGui::GetCursorPosX counts @param normal tip of the normal's fields
+void plane_fields(const PanelModel& model, interaction::Plane& plane, float end,
+                  const char* normal);
 
 } // namespace isochron::app

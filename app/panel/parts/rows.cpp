@@ -191,6 +191,20 @@ bool tick_field(const char* id, bool& on, const char* words) {
     return changed;
 }
 
+float tick_width(const char* words) {
+    return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x + ImGui::CalcTextSize(words).x;
+}
+
+float button_width(const char* words) {
+    return ImGui::CalcTextSize(words).x + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
+void beside_or_below(float needed, float end, float gap) {
+    ImGui::SameLine(0.0f, gap);
+    if (ImGui::GetCursorPosX() + needed > end)
+        ImGui::NewLine();
+}
+
 LinePress table_line(bool chosen, float height) {
     ImGui::Selectable("##line", chosen, height > 0 ? 0 : ImGuiSelectableFlags_SpanAllColumns,
                       {0.0f, height});

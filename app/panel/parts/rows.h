@@ -52,6 +52,14 @@ std::optional<std::size_t> choice_field(const char* id, const std::string& curre
 
 /// A box to tick. @return whether it has changed
 bool tick_field(const char* id, bool& on, const char* words = "");
+/// Width of a box to tick with its words, and of a button with these.
+float tick_width(const char* words);
+float button_width(const char* words);
+
+/// The next item stands beside the last one if it ends before `end`, else it begins a line.
+/// @param needed its width @param end as ImGui::GetCursorPosX counts @param gap before it; below 0:
+/// the usual one
+void beside_or_below(float needed, float end, float gap = -1.0f);
 
 /// What the mouse does with a line of a list.
 enum class LinePress { none, once, twice };

@@ -68,9 +68,11 @@ interaction::Commands flat_view(const PanelModel& model, Slices slices) {
     return commands;
 }
 
-void slice_lines(const PanelModel& model, interaction::Commands& commands) {
+void slice_lines(const PanelModel& model, float width, interaction::Commands& commands) {
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+    constexpr float kGap = 14.0f;
     Slices slices = model.asked.slices;
+    const float end = ImGui::GetCursorPosX() + width;
     ImGui::PushID("slices");
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(color_of(Ink::dim), "slice across");
@@ -88,14 +90,15 @@ void slice_lines(const PanelModel& model, interaction::Commands& commands) {
         ImGui::SameLine();
         if (icon_button("no slice", Icon::remove, "remove this slice (Delete: all)", false, side))
             slices = without_slice(slices);
-        ImGui::SameLine(0.0f, 14.0f);
+        beside_or_below(tick_width("isolines"), end, kGap);
         tick_field("##isolines", slices.isolines, "isolines");
         tip("the isovalues of the surfaces as lines on the slices");
-        ImGui::SameLine(0.0f, 14.0f);
+        beside_or_below(tick_width("alone"), end, kGap);
         tick_field("##alone", slices.alone, "alone");
         tip("hide the surfaces (Ctrl + H)");
-        ImGui::SameLine(0.0f, 14.0f);
-        if (ImGui::Button("flat"))
+        constexpr const char* kFlat = "flat";
+        beside_or_below(button_width(kFlat), end, kGap);
+        if (ImGui::Button(kFlat))
             merge(commands, flat_view(model, slices));
         tip("look straight at the slice, alone and in parallel projection");
     }
@@ -107,7 +110,7 @@ void slice_lines(const PanelModel& model, interaction::Commands& commands) {
             tip(forward ? "one cell along the normal (Ctrl + Up)" : "one cell back (Ctrl + Down)");
             ImGui::SameLine();
         }
-        plane_fields(model, slices.planes[slices.picked], "the slice's normal");
+        plane_fields(model, slices.planes[slices.picked], end, "the slice's normal");
     }
     ImGui::PopID();
     if (slices != model.asked.slices)

@@ -9,7 +9,8 @@ namespace isochron::app {
 /// Shows the picked one of these slices flat: alone, from straight ahead, in parallel projection.
 interaction::Commands flat_view(const PanelModel& model, interaction::Slices slices);
 
-/// Two lines in the current window, and one more while there are slices.
-void slice_lines(const PanelModel& model, interaction::Commands& commands);
+/// Lines in the current window: the axes, and what the slices have if there are any.
+/// @param width of the longest line, panel pixels
+void slice_lines(const PanelModel& model, float width, interaction::Commands& commands);
 
 } // namespace isochron::app

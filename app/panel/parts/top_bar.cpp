@@ -230,9 +230,9 @@ void tool_strip(const PanelModel& model, float width, Commands& commands) {
         if (!has_line(tool, model))
             continue;
         if (tool.kind == ToolKind::clip)
-            clip_lines(model, commands);
+            clip_lines(model, width, commands);
         else if (tool.kind == ToolKind::slice)
-            slice_lines(model, commands);
+            slice_lines(model, width, commands);
         else if (tool.kind == ToolKind::ruler)
             ruler_lines(model, commands);
     }

@@ -24,7 +24,7 @@ using interaction::Commands;
 /// The box's ends along each axis, as indices of vertices, while it is shown.
 void box_fields(const PanelModel& model, float end_of_line, Commands& commands) {
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
-    constexpr float kEnd = 54.0f, kGap = 4.0f; // of a field, and before it
+    constexpr float kEnd = 54.0f, kGap = 4.0f; // width of a field, and what is before it
     interaction::ClipBox box = model.asked.clip_box;
     if (!box.shown)
         return;

@@ -918,6 +918,17 @@ void add_objects(Lines& lines) {
     for (const ItemKind& kind : item_kinds())
         for (std::size_t i = 0; i < kind.count(model); ++i) {
             const Item item = kind.item(model, i);
+            if (kind.places) {
+                Commands way;
+                way.room_from_physical = model.asked.room_from_physical;
+                go_to_item(kind, model, i, way);
+                lines.add({.name = fmt::format("see_{}={}", kind.name, item.name),
+                           .words = "go to " + words_of_item(item),
+                           .others = "bring into view, focus, find, look at, jump to",
+                           .commands = std::move(way)});
+            }
+            if (!kind.has_eye())
+                continue;
             SearchLine& line = lines.add({.name = fmt::format("{}={}", kind.name, item.name),
                                           .words = fmt::format("{} {}", item.shown ? "hide" : "show",
                                                                words_of_item(item)),

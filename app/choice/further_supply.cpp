@@ -123,7 +123,7 @@ std::vector<ShownFurther> shown_further(const std::vector<index::InstantSurfaces
         shown.surfaces = surfaces;
         shown.look = state.isosurfaces[number];
         shown.look.isovalue = surfaces->query.isovalues.back();
-        shown.values = {info.array, info.value_unit, info.type};
+        shown.values = {info.array, info.value_unit, info.type, info.digits};
         shown.simplified = !surfaces->exact() && surfaces->most == FurtherSupply::kMost;
         shown.by_values = state.coloring.by == interaction::ColorBy::value &&
                           surfaces->query.coloring == index::CellColoring::value &&

@@ -22,10 +22,10 @@ class PartsJoiner {
 
     /// What a part's vertices become among those of all parts.
     struct Numbers {
-        std::vector<std::uint32_t> of_first;  ///< of the vertices that the part before may have
-        std::vector<std::uint32_t> new_first; ///< those of them that it does not have
-        std::uint32_t offset;                 ///< added to the numbers of the others
-        std::uint32_t count;                  ///< of vertices that the part before does not have
+        std::vector<std::uint32_t> of_first;  ///< numbers of vertices that the part before may have
+        std::vector<std::uint32_t> new_first; ///< places of those that it does not have
+        std::uint32_t offset;                 ///< what is added to the places of the others
+        std::uint32_t count; ///< number of vertices that the part before does not have
     };
     /// Numbers the vertices of the next part.
     Numbers number(const MeshPart& part);

@@ -440,8 +440,8 @@ const float* values(Volume* other, const Volume* of, std::uint32_t layer, std::u
 EXPORT("slice") int slice(Volume* volume, const double* plane, std::size_t most) {
     Slice& made = volume->slice;
     made = {};
-    const SliceQuery query{
-        .point = {plane[0], plane[1], plane[2]}, .normal = {plane[3], plane[4], plane[5]}};
+    const SliceQuery query{.point = {plane[0], plane[1], plane[2]},
+                           .normal = {plane[3], plane[4], plane[5]}};
     made.runs.emplace(volume->grid, query);
     if (made.runs->empty())
         return 0;

@@ -281,7 +281,6 @@ function paintSlices(): void {
     scene.slice(last.slices, ofSlices, {
       map: sliceMap.value as MapName,
       range: [bottom, top],
-      whole: [ofSlices.low, ofSlices.high],
       lines: isolines.checked && last.asked.sliceOf === last.asked.array ? surfaces : [],
     });
 }

@@ -40,7 +40,9 @@ export interface SliceValues {
   axis: number;
   /** Where the run of each column begins in `shares`, and at which vertex; filled up to whole rows of SLICE_ROW. */
   columns: Uint32Array;
-  /** Of the range of the array; 3e38: missing. Filled up as `columns`. */
+  /** Lowest and highest value of the array when it was read. */
+  whole: readonly [number, number];
+  /** As shares of `whole`; 3e38: missing. Filled up as `columns`. */
   shares: Float32Array;
   /** Corners in their order, in distances along the axes of the grid. */
   outline: Float32Array;

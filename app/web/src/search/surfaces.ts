@@ -270,6 +270,7 @@ export class Surfaces {
       const rows = (words: number) => SLICE_ROW * Math.ceil(words / SLICE_ROW);
       const made: SliceValues = {
         axis,
+        whole: [info.low, info.high],
         columns: new Uint32Array(2 * rows(columnCount)),
         shares: new Float32Array(rows(shareCount)),
         outline: new Float32Array(calls.memory.buffer, outline, outlineCount).slice(),

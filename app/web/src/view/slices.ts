@@ -11,9 +11,8 @@ const LINE = 0.8;
 /** How slices are colored. */
 export interface SliceLook {
   map: MapName;
-  /** Ends of the map, and of the values of the array. */
+  /** Values at the ends of the map. */
   range: readonly [number, number];
-  whole: readonly [number, number];
   lines: readonly { isovalue: number; color: string }[];
 }
 
@@ -95,6 +94,7 @@ export class Slices {
   /** In distances along the axes of the grid. */
   readonly group = new THREE.Group();
   private slices: Slice[] = [];
+  private wholes: (readonly [number, number])[] = [];
 
   constructor() {
     this.group.matrixAutoUpdate = false;
@@ -110,6 +110,7 @@ export class Slices {
     this.group.clear();
     const [x, y, z] = direction.map((column) => new THREE.Vector3(...(column as [number, number, number])));
     this.group.matrix.makeBasis(x!, y!, z!);
+    this.wholes = values.map((each) => each.whole);
     this.slices = values.map((each) => {
       const geometry = new THREE.BufferGeometry();
       geometry.setAttribute("position", new THREE.BufferAttribute(each.outline, 3));
@@ -144,25 +145,26 @@ export class Slices {
     });
   }
 
-  look({ map, range, whole, lines }: SliceLook): void {
-    const wide = whole[1] - whole[0];
+  look({ map, range, lines }: SliceLook): void {
     const shares = Float32Array.from({ length: SHADES }, (_, i) => i / (SHADES - 1));
     const shades = colorsOf(map, shares, 0, 1);
     const colors = new Float32Array(4 * SHADES).fill(1);
     for (let i = 0; i < SHADES; ++i) colors.set(shades.subarray(3 * i, 3 * i + 3), 4 * i);
-    const scale = wide / Math.max(range[1] - range[0], 1e-30);
+    const scale = 1 / Math.max(range[1] - range[0], 1e-30);
     const own = new THREE.Color();
-    for (const { material } of this.slices) {
+    this.slices.forEach(({ material }, which) => {
+      const [low, high] = this.wholes[which]!;
+      const wide = high - low;
       const { uniforms } = material;
       (uniforms["map"]!.value as THREE.Texture | null)?.dispose();
       uniforms["map"]!.value = texture(colors, SHADES, THREE.RGBAFormat, 4);
-      uniforms["onMap"]!.value = [scale, (whole[0] - range[0]) / Math.max(range[1] - range[0], 1e-30)];
+      uniforms["onMap"]!.value = [wide * scale, (low - range[0]) * scale];
       uniforms["halfWidth"]!.value = LINE * window.devicePixelRatio;
       uniforms["lineCount"]!.value = lines.length;
       lines.forEach(({ isovalue, color }, i) => {
         own.set(color);
-        (uniforms["lines"]!.value as THREE.Vector4[])[i]!.set(own.r, own.g, own.b, wide > 0 ? (isovalue - whole[0]) / wide : 0);
+        (uniforms["lines"]!.value as THREE.Vector4[])[i]!.set(own.r, own.g, own.b, wide > 0 ? (isovalue - low) / wide : 0);
       });
-    }
+    });
   }
 }

@@ -1,8 +1,4 @@
 // Which values a plane through a grid needs, and where they go: without a file, for whoever has chunks.
-//
-//     const index::SliceRuns runs(grid, query);
-//     index::SliceValues slice = runs.empty_slice(whole, type, scaling);
-//     runs.copy(values, low, size, slice); // of each chunk of runs.chunks(chunk_grid)
 #pragma once
 
 #include "index/file/chunks/chunk_grid.h"

@@ -77,20 +77,20 @@ std::string with_space(const std::string& unit) {
     return unit.empty() ? unit : " " + unit;
 }
 
-std::string with_unit(double value, const std::string& unit) {
-    return fmt::format("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
+std::string with_unit(double value, const std::string& unit, int digits) {
+    return fmt::format("{:.{}g}{}", value, digits, with_space(unit));
 }
 
 std::string range_text(double low, double high, const std::string& unit) {
-    constexpr int kLeast = 6, kMost = 12; // digits
-    const auto power = [](double number) {
-        return number == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(number))));
-    };
-    const double apart = std::abs(high - low), larger = std::max(std::abs(low), std::abs(high));
-    const int digits = std::isfinite(apart) && apart > 0
-                           ? std::clamp(power(larger) - power(apart) + 4, kLeast, kMost)
-                           : kLeast;
+    const int digits = index::telling_digits(low, high);
     return fmt::format("{:.{}g} to {:.{}g}{}", low, digits, high, digits, with_space(unit));
+}
+
+std::string exact_range_text(double low, double high, const index::SeriesInfo& info) {
+    const std::string unit = with_space(info.value_unit);
+    return info.type == index::ValueType::f32 && info.scaling == index::Scaling{}
+               ? fmt::format("{} to {}{}", static_cast<float>(low), static_cast<float>(high), unit)
+               : fmt::format("{} to {}{}", low, high, unit);
 }
 
 std::string missing_text(std::uint64_t missing, const index::SeriesInfo& info) {

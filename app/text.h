@@ -29,10 +29,14 @@ std::string human_number(double number);
 std::string upper_text(double bound, const std::string& unit);
 
 /// `12.5 ms`, `0.0341`, `1.2e+07`: a number with its unit, short enough for a label.
-std::string with_unit(double value, const std::string& unit);
+/// @param digits significant ones; `SeriesInfo::digits` of an array's value
+std::string with_unit(double value, const std::string& unit, int digits = index::kFewestDigits);
 
 /// `99960.6 to 102725 Pa`: both ends in as many digits, which tell them apart to a thousandth of the range.
 std::string range_text(double low, double high, const std::string& unit = {});
+
+/// `284.84042 to 289.36212 K`: both ends exactly, in the digits that the type of the values carries.
+std::string exact_range_text(double low, double high, const index::SeriesInfo& info);
 
 /// `3.7 %`: the share of the values of all steps that are missing (NaN); empty: none is.
 std::string missing_text(std::uint64_t missing, const index::SeriesInfo& info);

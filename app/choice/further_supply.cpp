@@ -121,7 +121,7 @@ std::vector<ShownFurther> shown_further(const std::vector<index::InstantSurfaces
         shown.surfaces = surfaces;
         shown.look = state.isosurfaces[number];
         shown.look.isovalue = surfaces->query.isovalues.back();
-        shown.values = {info.array, info.value_unit, info.type};
+        shown.values = {info.array, info.value_unit, info.type, info.digits};
         shown.simplified = !surfaces->exact() && surfaces->most == FurtherSupply::kMost;
     }
     return further;

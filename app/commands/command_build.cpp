@@ -42,8 +42,8 @@ SafeText summary(const fs::path& out, const index::IndexFile& file) {
         const index::SeriesInfo& one = array.info();
         const index::IndexStats& stats = array.stats();
         text += file.arrays() == 1 ? SafeText(", ") : SafeText("\n{}: ", one.array);
-        text += SafeText("{}, values {} to {}{}\n{}", index::name_of(one.type), stats.low,
-                         stats.high, with_space(one.value_unit), array_sizes(array));
+        text += SafeText("{}, values {}\n{}", index::name_of(one.type),
+                         exact_range_text(stats.low, stats.high, one), array_sizes(array));
     }
     text += SafeText("\n");
     return text;

@@ -511,8 +511,8 @@ void add_movie(Command& program) {
                       "isochron movie run42.isochron --turn -o turn.mp4"});
     add_replay_source(command, *options,
                       "Recording made by `explore --record`. Or an index: the movie then shows all "
-                      "its steps from where `explore` looks first, in 10 s, or in more where each "
-                      "step needs a frame");
+                      "its steps, seen as `explore` shows them first. It lasts 10 s, or longer "
+                      "where there are more steps than frames in 10 s");
     command
         .option("-o,--output,--out", options->out,
                 "Movie to write: .mp4, .mkv or .mov (H.264), .webm (VP9), or .gif; or a folder for "
@@ -544,10 +544,11 @@ void add_movie(Command& program) {
                 "keys (Ctrl + M in `explore`)")
         .type_name("FILE");
     command
-        .option("--film", options->series.film,
-                "With an index: a ready film, `time` (the steps pass), `turn` (one turn about the "
-                "data's up axis while the first of the steps stands) or `both` (one turn while the "
-                "steps pass) (default: time)")
+        .option(
+            "--film", options->series.film,
+            "With an index: the kind of film, `time` (the steps pass), `turn` (one turn about the "
+            "data's up axis while the first of the steps stands) or `both` (one turn while the "
+            "steps pass) (default: time)")
         .one_of({"time", "turn", "both"})
         .type_name("FILM");
     command.flag("--turn", options->series.turn,
@@ -559,8 +560,8 @@ void add_movie(Command& program) {
         .between(0.1, interaction::kLongestFilm)
         .type_name("SECONDS");
     command.flag("--titles", options->series.titles,
-                 "With --keys: names and texts of the keys at the bottom, while the film rests "
-                 "there; with the recording of a film or story that has them: the same");
+                 "Show the name and the text of each key at the bottom while the film rests there: "
+                 "with --keys, or with the recording of a film or story whose keys have texts");
     command.flag("--panorama", options->panorama,
                  "All directions for both eyes: equirectangular, the left eye's picture above the "
                  "right eye's, in a square of 4096 pixels, or as --size says");

@@ -194,7 +194,7 @@ class PanelDrawing {
             const interaction::Isosurface& surface = state.isosurfaces[i];
             const index::SeriesInfo& own = file.array(array_of_surface(state, i, file)).info();
             drawn.surface_words.push_back((surface.of_shown_array() ? "" : own.array + " ") +
-                                          with_unit(surface.isovalue, own.value_unit));
+                                          with_unit(surface.isovalue, own.value_unit, own.digits));
         }
         drawn.bar = scale_bar(views.front(), state.room_from_physical, physical_center(info.grid));
         const auto further = words_of(shown_further(session.further().shown(), state, file));

@@ -67,7 +67,8 @@ void add_replay_source(Command& command, ReplaySource& source, const std::string
                 "it is transparent")
         .one_of(interaction::all_names<interaction::WrittenBackground>())
         .type_name("BACKGROUND");
-    command.option("--dpi", source.dpi, "Pixels an inch that picture files say (default: nothing)")
+    command
+        .option("--dpi", source.dpi, "Pixels per inch that the picture files state (default: none)")
         .between(1.0, interaction::kMostDpi)
         .type_name("DPI");
     add_shape_option(command, source.shape);

@@ -128,7 +128,7 @@ std::string at_isovalues(const PictureFacts& facts) {
     for (const Isosurface& surface : facts.settings.isosurfaces)
         if (is_visible(surface))
             words += (words.empty() ? "No surface at " : " or ") +
-                     fmt::format("{:.6g}", surface.isovalue);
+                     with_unit(surface.isovalue, {}, index::telling_digits(facts.low, facts.high));
     return words;
 }
 

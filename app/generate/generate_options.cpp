@@ -35,7 +35,7 @@ add_series(Command& generate_command, const std::string& description, const std:
                 "Folder for the files; it is made where it is missing")
         .required()
         .type_name("FOLDER");
-    command.option("--type", request->type, "Type of the values; u8 rounds them")
+    command.option("--type", request->type, "Type of the values, where u8 rounds them")
         .one_of({"f32", "u8"})
         .shows_default()
         .type_name("TYPE");

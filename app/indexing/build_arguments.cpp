@@ -459,7 +459,7 @@ std::pair<Option, Option> add_index_options(Command& command, BuildArguments& ar
         .flag("--append", arguments.append,
               "Add to the index the steps that it does not hold yet. FILE... are the files of all "
               "steps, beginning with those that the index holds. Options that are not given "
-              "stay as the index was built")
+              "are those that the index was built with")
         .group(index_group);
     command
         .flag("--refer", arguments.refer,

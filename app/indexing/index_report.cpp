@@ -67,11 +67,11 @@ std::vector<std::string> notes_of(const index::IndexFile& file) {
 std::string array_text(const index::IndexFile& file) {
     const index::IndexStats& stats = file.stats();
     const auto tiers = tier_names(file);
-    return fmt::format("{}: {}, {} to {}{}, {} NaN, {}, {}", file.info().array,
-                       index::name_of(file.info().type), stats.low, stats.high,
-                       with_space(file.info().value_unit), grouped(stats.nan_values),
-                       tiers.empty() ? "no tiers" : fmt::format("{}", fmt::join(tiers, ", ")),
-                       human_bytes(static_cast<double>(own_bytes(file))));
+    return fmt::format(
+        "{}: {}, {}, {} NaN, {}, {}", file.info().array, index::name_of(file.info().type),
+        exact_range_text(stats.low, stats.high, file.info()), grouped(stats.nan_values),
+        tiers.empty() ? "no tiers" : fmt::format("{}", fmt::join(tiers, ", ")),
+        human_bytes(static_cast<double>(own_bytes(file))));
 }
 
 /// The time nodes of the paper's tree; none without it.
@@ -147,14 +147,15 @@ std::string blends_text(const std::optional<index::BlendQuality>& quality) {
         return "unknown; the measurement needs three steps, bricks, and the values in the index";
     return fmt::format(
         "{}; a blend of two steps is expected to place 95 % of the surface's cells within {:.2g} "
-        "voxels of the true surface{}. The error is {:.2g} voxels with every second step alone{}",
+        "voxels of the true surface{}. It would be {:.2g} voxels if there were only every second "
+        "step{}",
         quality->holds() ? "hold" : "blend", quality->expected(),
         quality->lone > 0 ? fmt::format(", but {} parts of more than {} cells appear and vanish",
                                         quality->lone, index::BlendQuality::kSmallPart)
                           : "",
         quality->every_second,
         quality->every_fourth
-            ? fmt::format(" and {:.2g} with every fourth step alone", *quality->every_fourth)
+            ? fmt::format(", and {:.2g} with only every fourth", *quality->every_fourth)
             : "");
 }
 
@@ -247,7 +248,7 @@ SafeText as_text(const IndexReport& report) {
     const auto line = [&](std::string_view label, const std::string& value) {
         text += SafeText("{:<13} {}\n", label, value);
     };
-    line("values", fmt::format("{} to {}{}", stats.low, stats.high, with_space(info.value_unit)));
+    line("values", exact_range_text(stats.low, stats.high, info));
     line("NaN", fmt::format("{} values", grouped(stats.nan_values)));
     for (std::size_t number = 0; file.arrays() > 1 && number < file.arrays(); ++number)
         line(number == 0 ? "arrays" : "", array_text(file.array(number)));

@@ -217,9 +217,9 @@ SafeText source_text(const std::string& name, index::VolumeSeries& series) {
         text += SafeText("{:<13} {}\n", label, value);
     };
     const ValueRange range = range_of(series, 0);
-    line("values", range.low <= range.high ? fmt::format("{} to {}{} in the first step", range.low,
-                                                         range.high, with_space(info.value_unit))
-                                           : "none is finite in the first step");
+    line("values", range.low <= range.high
+                       ? exact_range_text(range.low, range.high, info) + " in the first step"
+                       : "none is finite in the first step");
     line("NaN", fmt::format("{} values in the first step", grouped(range.nan_values)));
     if (info.arrays.size() > 1)
         for (std::size_t i = 0; i < info.arrays.size(); ++i)

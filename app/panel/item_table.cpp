@@ -9,6 +9,9 @@
 #include "app/panel/parts/surfaces_section.h"
 #include "app/scene/mark.h"
 #include "app/text.h"
+#include "interaction/navigation/key_frames.h"
+#include "interaction/navigation/navigation.h"
+#include "interaction/tools/clip_box.h"
 #include "interaction/tools/plane_hold.h"
 #include "interaction/tools/ruler_tool.h"
 #include "interaction/tools/slice_tool.h"
@@ -58,15 +61,16 @@ auto& surfaces(const PanelModel& model, Commands& commands) {
 
 std::string surface_words(const PanelModel& model, std::size_t i) {
     const index::SeriesInfo& info = model.info_of(i);
-    return fmt::format("{} {}", info.array,
-                       with_unit(model.asked.isosurfaces[i].isovalue, info.value_unit));
+    return fmt::format(
+        "{} {}", info.array,
+        with_unit(model.asked.isosurfaces[i].isovalue, info.value_unit, info.digits));
 }
 
 Item surface_item(const PanelModel& model, std::size_t i) {
     const interaction::Isosurface& surface = model.asked.isosurfaces[i];
     const index::SeriesInfo& info = model.info_of(i);
     return {.words = info.array,
-            .value = with_unit(surface.isovalue, info.value_unit),
+            .value = with_unit(surface.isovalue, info.value_unit, info.digits),
             .name = fmt::format("{}", i + 1),
             .shown = surface.opacity > 0,
             .picked = model.asked.isosurfaces.size() > 1 && model.asked.picked == i,
@@ -293,9 +297,8 @@ bool is_the_mark(const PanelModel& model, std::size_t i) {
 Item mark_item(const PanelModel& model, std::size_t i) {
     const interaction::MarkedPoint& point = mark_at(model, i);
     const bool kept = i < model.asked.marks.size();
-    const std::string& unit = point.array.empty() ? model.info.value_unit : point.unit;
     return {.words = fmt::format("mark {}", kept ? model.asked.marks[i].name : "here"),
-            .value = with_unit(point.value, unit),
+            .value = value_text(point, model.info),
             .note = mark_text(point, model.info),
             .name = kept ? model.asked.marks[i].name : "here",
             .named = kept,
@@ -336,7 +339,10 @@ Item ruler_item(const PanelModel& model, std::size_t i) {
     const interaction::Ruler& ruler = model.asked.rulers.list[i];
     const std::string value = interaction::measured_text(ruler, model.data.unit);
     return {.words = fmt::format("{} {}", ruler.angle ? "angle" : "ruler", ruler.name),
-            .value = value.empty() ? "more places" : value,
+            .value = !ruler.complete()
+                         ? fmt::format("{} of {} places", ruler.places.size(), ruler.wanted())
+                     : value.empty() ? "no angle"
+                                     : value,
             .name = ruler.name,
             .named = true,
             .shown = ruler.shown,
@@ -352,6 +358,44 @@ constexpr ItemAct kRulerActs[] = {
          commands.curves->shown = true;
          commands.curves->measure = kProfileCurve;
      }}};
+
+// Where they lie.
+
+std::vector<glm::dvec3> places_of_cut(const PanelModel& model, std::size_t i) {
+    if (is_plane(model, i)) {
+        const interaction::ClipPlane& clip = model.asked.clip;
+        return interaction::outline({clip.point, clip.normal}, model.data);
+    }
+    Settings boxed;
+    boxed.clip_box = model.asked.clip_box;
+    boxed.clip_box.shown = true;
+    std::vector<glm::dvec3> corners;
+    for (const interaction::ToolLine& edge : draw_clip_box(boxed, model.data).lines)
+        corners.insert(corners.end(), {edge.from, edge.to});
+    return corners;
+}
+
+std::vector<glm::dvec3> places_of_slice(const PanelModel& model, std::size_t i) {
+    return interaction::outline(model.asked.slices.planes[i], model.data);
+}
+
+// Key frames.
+
+Item key_item(const PanelModel& model, std::size_t i) {
+    const std::vector<interaction::KeyFrame>& keys = model.asked.keys;
+    return {.words = fmt::format("key frame {}",
+                                 keys[i].name.empty() ? fmt::format("{}", i + 1) : keys[i].name),
+            .value = fmt::format("{:.4g} s", keys[i].time),
+            .note = keys[i].text,
+            .name = keys[i].name,
+            .named = true};
+}
+
+void rename_key(const PanelModel& model, std::size_t i, const std::string& name,
+                Commands& commands) {
+    if (name.size() <= interaction::kLongestText)
+        changed<&Commands::keys, &Settings::keys>(model, commands)[i].name = name;
+}
 
 // Curves.
 
@@ -383,8 +427,9 @@ std::vector<ItemKind> all_kinds() {
          .item = slice_item,
          .show = [](const PanelModel& model, std::size_t i, bool shown,
                     Commands& commands) { slices(model, commands).planes[i].shown = shown; },
-         .go_words = "move this slice with keys and hands",
+         .go_words = "move this slice with keys and hands; out of sight it is brought into view",
          .go = pick_slice,
+         .places = places_of_slice,
          .acts = kSliceActs,
          .remove =
              [](const PanelModel& model, std::size_t i, Commands& commands) {
@@ -397,6 +442,8 @@ std::vector<ItemKind> all_kinds() {
          .count = count_cuts,
          .item = cut_item,
          .show = show_cut,
+         .go_words = "bring it into view",
+         .places = places_of_cut,
          .remove = remove_cut},
         {.name = "model",
          .icon = Icon::data,
@@ -439,9 +486,11 @@ std::vector<ItemKind> all_kinds() {
                 Commands& commands) {
                  changed<&Commands::marks, &Settings::marks>(model, commands)[i].name = name;
              },
-         .go_words = "go to the time of this mark, and point it out",
+         .go_words = "go to this mark at its time, and point it out",
          .go = [](const PanelModel& model, std::size_t i,
                   Commands& commands) { merge(commands, way_to_mark(model, mark_at(model, i))); },
+         .places = [](const PanelModel& model,
+                      std::size_t i) { return std::vector{mark_at(model, i).position}; },
          .acts = kMarkActs,
          .remove = remove_mark,
          .alone = true},
@@ -453,11 +502,13 @@ std::vector<ItemKind> all_kinds() {
                     Commands& commands) { rulers(model, commands).list[i].shown = shown; },
          .rename = [](const PanelModel& model, std::size_t i, const std::string& name,
                       Commands& commands) { rulers(model, commands).list[i].name = name; },
-         .go_words = "pick this ruler: its values are plotted, Delete removes it",
+         .go_words = "go to this ruler and pick it: its values are plotted, Delete removes it",
          .go =
              [](const PanelModel& model, std::size_t i, Commands& commands) {
                  rulers(model, commands).picked = static_cast<std::uint32_t>(i);
              },
+         .places = [](const PanelModel& model,
+                      std::size_t i) { return model.asked.rulers.list[i].places; },
          .acts = kRulerActs,
          .remove =
              [](const PanelModel& model, std::size_t i, Commands& commands) {
@@ -481,6 +532,22 @@ std::vector<ItemKind> all_kinds() {
              },
          .remove = [](const PanelModel&, std::size_t,
                       Commands& commands) { commands.curves = interaction::CurveDrawer{}; }},
+        {.name = "key",
+         .icon = Icon::movie,
+         .count = [](const PanelModel& model) { return model.asked.keys.size(); },
+         .item = key_item,
+         .rename = rename_key,
+         .go_words = "show what this key frame shows",
+         .go =
+             [](const PanelModel& model, std::size_t i, Commands& commands) {
+                 merge(commands,
+                       interaction::way_to_key(model.asked.keys[i], model.asked, model.head));
+             },
+         .remove =
+             [](const PanelModel& model, std::size_t i, Commands& commands) {
+                 commands.keys = interaction::without_key(
+                     changed<&Commands::keys, &Settings::keys>(model, commands), i);
+             }},
     };
 }
 
@@ -499,6 +566,18 @@ void show_item(const ItemKind& kind, const PanelModel& model, std::size_t i, boo
         kind.fade(model, i, shown ? opacity : 0.0f, commands);
 }
 
+void go_to_item(const ItemKind& kind, const PanelModel& model, std::size_t i, Commands& commands) {
+    if (kind.go)
+        kind.go(model, i, commands);
+    if (!kind.places)
+        return;
+    const std::vector<glm::dvec3> places = kind.places(model, i);
+    const interaction::Similarity& now = model.asked.room_from_physical;
+    if (const auto seen = places.empty() ? now : brought_into_view(now, places, model.head);
+        seen != now)
+        commands.room_from_physical = seen;
+}
+
 void show_alone(const ItemKind& kind, const PanelModel& model, std::size_t i, Commands& commands) {
     const std::size_t count = kind.count(model);
     for (std::size_t each = 0; each < count; ++each)
@@ -513,6 +592,8 @@ std::string words_of_item(const Item& item) {
 std::string words_for_items(const PanelModel& model) {
     std::size_t all = 0, shown = 0;
     for (const ItemKind& kind : item_kinds()) {
+        if (!kind.has_eye())
+            continue;
         const std::size_t count = kind.count(model);
         all += count;
         for (std::size_t i = 0; i < count; ++i)

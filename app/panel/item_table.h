@@ -15,6 +15,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace isochron::app {
 
@@ -55,14 +56,18 @@ struct ItemKind {
                  interaction::Commands&) = {};
     void (*rename)(const PanelModel& model, std::size_t i, const std::string& name,
                    interaction::Commands&) = {};
-    const char* go_words = ""; ///< what `go` does
-    /// What a press on the line does.
+    const char* go_words = ""; ///< what a press on the line does, see `go_to_item`
     void (*go)(const PanelModel& model, std::size_t i, interaction::Commands&) = {};
+    /// The places between which it lies, in physical space, which a press brings into view.
+    std::vector<glm::dvec3> (*places)(const PanelModel& model, std::size_t i) = {};
     std::span<const ItemAct> acts = {};
     /// Not for the last item of a kind that needs one.
     void (*remove)(const PanelModel& model, std::size_t i, interaction::Commands&) = {};
     std::size_t least = 0; ///< items that cannot be removed
     bool alone = false;    ///< one can be shown without the others of its kind
+
+    bool has_eye() const { return show || fade; }
+    bool can_go() const { return go || places; }
 };
 
 /// In the order of the list.
@@ -71,6 +76,10 @@ std::span<const ItemKind> item_kinds();
 /// Shows or hides an item. @param opacity of one that is shown again and that opacity 0 has hidden
 void show_item(const ItemKind& kind, const PanelModel& model, std::size_t i, bool shown,
                interaction::Commands& commands, float opacity = 1.0f);
+/// What a press on an item's line does: `go`, and the data are moved if it is out of sight. The kind
+/// can go.
+void go_to_item(const ItemKind& kind, const PanelModel& model, std::size_t i,
+                interaction::Commands& commands);
 /// Shows an item and hides the others of its kind, which has `alone`.
 void show_alone(const ItemKind& kind, const PanelModel& model, std::size_t i,
                 interaction::Commands& commands);

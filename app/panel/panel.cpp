@@ -111,7 +111,7 @@ void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, C
     gap_window(model, free);
     const float left_of_cube = view_cube(model, free, commands);
     view.free.high.x = left_of_cube;
-    view.lowest = left_of_cube < free.high.x ? free.low.y + kViewCubeEnd : chip.y;
+    view.lowest = left_of_cube < free.high.x ? free.low.y + kCubeEnd.y : chip.y;
     float below = chip.y + 6.0f;
     if (has_tool_strip(model)) {
         ImGui::SetNextWindowPos({chip.x + kApart, free.low.y + 10.0f});

@@ -282,16 +282,16 @@ constexpr OtherNames kOtherNames[] = {
     {"loop", "repeat, cycle, endless, play once, loop animation, loop playback"},
     {"ping_pong", "pingpong, bounce, boomerang, to and fro, forth and back, palindrome, swing"},
     {"speed",
-     "playback speed, play speed, animation speed, slower, faster, time scale, slow motion, "
+     "playback speed, play speed, animation speed, slower, slowly, faster, time scale, slow motion, "
      "tempo, pace, duration"},
     {"rate", "fps, frames per second, steps per second, frame rate of playing, animation rate"},
     {"faster", "faster, speed up, playback speed, double speed"},
-    {"slower", "slower, slow down, slow motion, playback speed, half speed"},
+    {"slower", "slower, slowly, slow down, slow motion, playback speed, half speed"},
     {"speed_unit", "real time, sequence, snap to time steps, play mode, animation mode"},
     {"every", "stride, skip frames, every nth, time stride, subsample time, frame step"},
     {"between_steps",
      "interpolate, interpolation, blend, smooth playback, smooth animation, tween, "
-     "temporal interpolation, morph, in between, stutter, jumps, jerky"},
+     "temporal interpolation, morph, in between, slowly, gradually, stutter, jumps, jerky"},
     {"follow", "live, latest, newest step, in situ, auto update, watch, tail, monitor"},
     {"range_first", "start frame, trim start, time range, in point, loop start"},
     {"range_last", "end frame, trim end, time range, out point, loop end"},
@@ -525,16 +525,18 @@ Commands with_picked(const PanelModel& model, const Change& change) {
 void add_surfaces(Lines& lines) {
     const PanelModel& model = lines.model();
     const auto& surfaces = model.asked.isosurfaces;
-    const std::string& unit = model.picked_info().value_unit;
+    const auto said = [&info = model.picked_info()](double value) {
+        return with_unit(value, info.value_unit, info.digits);
+    };
     const index::IndexStats& stats = model.picked_stats();
     const auto with_opacity = [&model](double opacity) {
         return with_picked(model, [opacity](interaction::Isosurface& surface) {
             surface.opacity = static_cast<float>(opacity);
         });
     };
-    lines.control("isovalue", "isovalue", with_unit(model.asked.isovalue(), unit), kSurfaces)
-        .with_number = [&unit](double number) {
-        NumberEffect effect{with_unit(number, unit), {}};
+    lines.control("isovalue", "isovalue", said(model.asked.isovalue()), kSurfaces)
+        .with_number = [said](double number) {
+        NumberEffect effect{said(number), {}};
         effect.commands.isovalue = number;
         return effect;
     };
@@ -542,7 +544,7 @@ void add_surfaces(Lines& lines) {
         const double usual = quantile(stats, kFirstQuantile);
         SearchLine& line = lines.add({.name = "usual_isovalue",
                                       .words = "isovalue: the usual one of these values",
-                                      .value = with_unit(usual, unit)});
+                                      .value = said(usual)});
         line.commands.isovalue = usual;
     }
     const double opacity = surfaces[model.asked.picked].opacity;
@@ -605,7 +607,8 @@ void add_surfaces(Lines& lines) {
                   .value = words_for_pieces(model)})
             .commands.pieces = interaction::ShownPieces{};
     lines.control("histogram", "histogram of the values",
-                  range_text(stats.low, stats.high, unit), kSurfaces);
+                  range_text(stats.low, stats.high, model.picked_info().value_unit),
+                  kSurfaces);
 }
 
 void add_ghosts(Lines& lines) {
@@ -915,6 +918,17 @@ void add_objects(Lines& lines) {
     for (const ItemKind& kind : item_kinds())
         for (std::size_t i = 0; i < kind.count(model); ++i) {
             const Item item = kind.item(model, i);
+            if (kind.places) {
+                Commands way;
+                way.room_from_physical = model.asked.room_from_physical;
+                go_to_item(kind, model, i, way);
+                lines.add({.name = fmt::format("see_{}={}", kind.name, item.name),
+                           .words = "go to " + words_of_item(item),
+                           .others = "bring into view, focus, find, look at, jump to",
+                           .commands = std::move(way)});
+            }
+            if (!kind.has_eye())
+                continue;
             SearchLine& line = lines.add({.name = fmt::format("{}={}", kind.name, item.name),
                                           .words = fmt::format("{} {}", item.shown ? "hide" : "show",
                                                                words_of_item(item)),

@@ -1,6 +1,8 @@
 // Decides when a wanted capture is taken.
 #include "app/quality/capture_wait.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -21,6 +23,12 @@ void CaptureWait::ask() {
         return;
     before_.reset();
     waited_ = {};
+}
+
+std::string CaptureWait::note() const {
+    return wanted_ == 0   ? ""
+           : wanted_ == 1 ? "saving a picture, as soon as it is exact"
+                          : fmt::format("saving {} pictures, as soon as they are exact", wanted_);
 }
 
 bool CaptureWait::take(const CaptureView& now) {

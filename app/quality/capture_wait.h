@@ -4,6 +4,7 @@
 #include "app/frame/frame_report.h"
 
 #include <optional>
+#include <string>
 
 namespace isochron::app {
 
@@ -38,6 +39,8 @@ class CaptureWait {
 
     void ask();
     int wanted() const { return wanted_; }
+    /// What the user is told while pictures are wanted; empty: none is.
+    std::string note() const;
 
     /// Called in each frame in which a capture is wanted.
     /// @return true: take one capture now; it then counts as taken

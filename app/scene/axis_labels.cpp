@@ -91,9 +91,9 @@ class Room {
         std::optional<render::Label> best;
         std::ptrdiff_t fewest = 0;
         constexpr std::ptrdiff_t kOverBox = 50, kOtherWords = 100; // worse than all numbers
-        const auto consider = [&](float farther, float higher) {
+        const auto consider = [&](float farther, const glm::vec2& aside) {
             render::Label moved = title;
-            moved.offset = farther * moved.offset + glm::vec2(0.0f, higher);
+            moved.offset = farther * moved.offset + aside;
             const glm::vec2 before = moved.offset;
             moved = moved_inside(moved);
             const Covered here = covered(moved);
@@ -111,13 +111,16 @@ class Room {
                 fewest = on;
             }
         };
-        for (const float higher : {0.0f, 2.0f, -2.0f, 5.0f, -5.0f}) { // heights of the text
-            for (const float farther : {1.0f, 1.3f, 1.7f, 2.2f, 2.8f, -1.0f, -2.0f, -4.0f})
-                if (!best || fewest >= (farther > 0.0f && higher == 0.0f ? 1 : kOverBox))
-                    consider(farther, higher);
-            if (fewest < kOverBox)
-                break;
-        }
+        for (const float aside : {0.0f, 6.0f, -6.0f, 12.0f, -12.0f}) // heights of the text
+            for (const float higher : {0.0f, 2.0f, -2.0f, 5.0f, -5.0f}) {
+                const glm::vec2 from(aside, higher);
+                for (const float farther : {1.0f, 1.3f, 1.7f, 2.2f, 2.8f, -1.0f, -2.0f, -4.0f})
+                    if (!best ||
+                        fewest >= (farther > 0.0f && from == glm::vec2(0.0f) ? 1 : kOverBox))
+                        consider(farther, from);
+                if (fewest < kOverBox)
+                    return *best;
+            }
         return *best;
     }
     std::vector<render::Label> labels() && { return std::move(labels_); }

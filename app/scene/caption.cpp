@@ -23,7 +23,7 @@ std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesI
     std::vector<std::string> values;
     for (const double value : shown.isovalues)
         if (value != kNoSurface)
-            values.push_back(fmt::format("{:.6g}", value)); // as the panel has it
+            values.push_back(with_unit(value, {}, info.digits));
     std::vector<std::string> parts;
     if (!values.empty())
         parts.push_back(fmt::format("{}{}isovalue{} {}{}", info.array,
@@ -41,9 +41,10 @@ std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesI
 std::vector<std::string> words_of(const std::vector<ShownFurther>& further) {
     std::vector<std::string> words;
     for (const ShownFurther& each : further)
-        words.push_back(fmt::format("{} {}{}", each.values.array,
-                                    with_unit(each.look.isovalue, each.values.unit),
-                                    each.simplified ? ", simplified" : ""));
+        words.push_back(
+            fmt::format("{} {}{}", each.values.array,
+                        with_unit(each.look.isovalue, each.values.unit, each.values.digits),
+                        each.simplified ? ", simplified" : ""));
     return words;
 }
 

@@ -100,7 +100,8 @@ void write_surfaces(const Legend& legend, Layout& layout) {
             continue;
         if (!legend.colored)
             layout.fill_rimmed({0.0f, y - 0.4f}, {kBarWidth, 0.8f}, glm::vec4(surface.color, 1.0f));
-        layout.write(with_unit(surface.isovalue, legend.value_unit), {kBarWidth + 0.7f, y});
+        layout.write(with_unit(surface.isovalue, legend.value_unit, legend.digits),
+                     {kBarWidth + 0.7f, y});
         y += 1.3f;
     }
     if (!legend.scales.empty() || !legend.further.empty())

@@ -4,6 +4,7 @@
 
 #include "app/scene/color_scale.h"
 #include "app/scene/overlay_colors.h"
+#include "index/volume/value_type.h"
 #include "interaction/commands.h"
 #include "render/passes/text_pass.h"
 
@@ -25,10 +26,11 @@ struct LegendLine {
 
 struct Legend {
     std::span<const interaction::Isosurface>
-        surfaces;                   ///< those that are seen are listed if there are several
-    std::string value_unit;         ///< unit of their isovalues
-    std::vector<ColorScale> scales; ///< scales of colored surfaces and of slices, from below
-    bool colored = false;           ///< surfaces are colored by the first of them
+        surfaces;                      ///< those that are seen are listed if there are several
+    std::string value_unit;            ///< unit of their isovalues
+    int digits = index::kFewestDigits; ///< significant ones of their isovalues
+    std::vector<ColorScale> scales;    ///< scales of colored surfaces and of slices, from below
+    bool colored = false;              ///< surfaces are colored by the first of them
     OverlayColors overlay{};
     std::string array{}; ///< that has the isovalues; stands over them where the scale is another's
     std::vector<LegendLine> further{}; ///< surfaces of other arrays

@@ -67,11 +67,6 @@ int digits_of(index::ValueType type) {
     return type == index::ValueType::f64 || type == index::ValueType::i32 ? 10 : 6;
 }
 
-std::string value_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info) {
-    return fmt::format("{:.{}g}{}", point.value, digits_of(info.type),
-                       with_space(point.array.empty() ? info.value_unit : point.unit));
-}
-
 std::string named_value(const interaction::MarkedPoint& point, const index::SeriesInfo& info) {
     const std::string& array = point.array.empty() ? info.array : point.array;
     return fmt::format("{} {}", array.empty() ? "value" : array, value_text(point, info));
@@ -85,12 +80,18 @@ std::string time_text(const interaction::MarkedPoint& point, const index::Series
 
 } // namespace
 
+std::string value_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info) {
+    const int carried = digits_of(info.type);
+    return point.array.empty() || point.array == info.array
+               ? with_unit(point.value, info.value_unit, std::max(carried, info.digits))
+               : with_unit(point.value, point.unit, carried);
+}
+
 std::string mark_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info,
                       const std::function<bool(const std::string&)>& fits) {
     const std::string place = place_text(point, info), value = named_value(point, info);
     const std::array texts{fmt::format("{}, {}, {}", place, value, time_text(point, info)),
-                           fmt::format("{}, {}", place, value), value,
-                           value_text(point, info)};
+                           fmt::format("{}, {}", place, value), value, value_text(point, info)};
     for (const std::string& text : texts)
         if (!fits || fits(text))
             return text;

@@ -19,6 +19,9 @@ namespace isochron::app {
 std::string mark_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info,
                       const std::function<bool(const std::string&)>& fits = {});
 
+/// `9.446 1/s`: the value there with its unit, in as many digits as the data carry.
+std::string value_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info);
+
 /// The text in lines: value with the array's name, place, time.
 std::vector<std::string> mark_lines(const interaction::MarkedPoint& point,
                                     const index::SeriesInfo& info);

@@ -19,6 +19,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -39,6 +40,8 @@ struct PictureLayout {
     stereo::Margins free;            ///< for the panel over the first one
     float aside = 0;                 ///< share of width, see Outputs::show_aside
     float text = 0;                  ///< share of height that words have, see `text_height`
+    /// What lies over the upper corners, left and right: from the corner on, in heights of the words.
+    std::array<glm::vec2, 2> corners{};
     bool operator==(const PictureLayout&) const = default;
 };
 
@@ -51,6 +54,7 @@ inline bool only_panel_differs(const PictureLayout& a, const PictureLayout& b) {
 struct ShownValues {
     std::string array, unit;
     index::ValueType type{};
+    int digits = index::kFewestDigits; ///< significant ones in which its values are said
     bool operator==(const ShownValues&) const = default;
 };
 

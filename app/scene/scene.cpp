@@ -113,6 +113,17 @@ float width_of(float line, const render::View& view, const Picture& picture) {
     return line * line_scale(view.size, picture.layout.text);
 }
 
+/// What the panel covers of an upper corner; empty: nothing.
+std::optional<TextRectangle> upper_corner(const render::View& view, const PictureLayout& layout,
+                                          bool right) {
+    const glm::vec2 size(view.size),
+        covered = text_height(view.size, layout.text) * layout.corners[right ? 1 : 0];
+    if (covered == glm::vec2(0.0f))
+        return std::nullopt;
+    const float left = right ? size.x - covered.x : 0.0f;
+    return TextRectangle{{left, size.y - covered.y}, {left + covered.x, size.y}};
+}
+
 OverlayColors overlay_of(const Picture& picture) {
     return overlay_colors_on(picture.look.background);
 }
@@ -280,6 +291,7 @@ void Scene::speak_of(const ShownValues& values) {
     info_.array = values.array;
     info_.value_unit = values.unit;
     info_.type = values.type;
+    info_.digits = values.digits;
 }
 
 std::size_t Scene::draw(const Picture& picture, std::span<const render::View> views,
@@ -474,10 +486,11 @@ Scene::CornerWords Scene::words_in_corners(const render::View& view, const Pictu
         for (const ShownSlice& slice : picture.slices)
             if (std::ranges::find(scales, slice.scale) == scales.end())
                 scales.push_back(slice.scale);
-        words.legend = legend_quads(
-            {picture.isosurfaces, info_.value_unit, scales, picture.scale && picture.surfaces,
-             overlay, picture.values.array, lines_of_further(picture), lines_of_ghosts(picture)},
-            text_pass_, view.size, share);
+        words.legend =
+            legend_quads({picture.isosurfaces, info_.value_unit, info_.digits, scales,
+                          picture.scale && picture.surfaces, overlay, picture.values.array,
+                          lines_of_further(picture), lines_of_ghosts(picture)},
+                         text_pass_, view.size, share);
     }
     if (picture.orientation)
         words.orientation =
@@ -496,12 +509,15 @@ void Scene::draw_before_cells(std::span<const render::View> views, const Picture
         return;
     Axes axes = axes_for(info_, placement, picture.audience.viewers.front().head, views);
     set_colors(axes, overlay_of(picture));
-    std::array<Covered, 3> taken;
+    std::array<Covered, 5> taken;
     for (const CornerWords& words : corners) {
         taken[0].push_back(covered_by(words.legend));
         taken[1].push_back(covered_by(words.orientation.quads));
         taken[2].push_back(covered_by(words.caption));
     }
+    for (const render::View& view : views)
+        for (const bool right : {false, true})
+            taken[right ? 4 : 3].push_back(upper_corner(view, picture.layout, right));
     const std::vector<render::Label> labels =
         labels_with_room(axes.labels, text_pass_.atlas(), placement, views, picture.layout.text,
                          {taken.begin(), taken.end()});

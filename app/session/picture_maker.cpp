@@ -143,7 +143,7 @@ bool PictureMaker::aids_lie_over(const ExplorerState& state) const {
 
 ShownValues PictureMaker::shown_values(const ExplorerState& state) const {
     const index::SeriesInfo& info = arrays_.shown(state).info();
-    return {info.array, info.value_unit, info.type};
+    return {info.array, info.value_unit, info.type, info.digits};
 }
 
 Picture PictureMaker::make(const Frame& frame, const interaction::InputState& seen) {
@@ -197,7 +197,8 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
                    .aside = panel_.stands_beside(interaction::Reading(seen).viewer(), state)
                                 ? SessionPanel::kShare
                                 : 0.0f,
-                   .text = text_share(state)}};
+                   .text = text_share(state),
+                   .corners = panel_.corners(state)}};
     for (interaction::Isosurface& surface : picture.isosurfaces)
         if (!surface.of_shown_array())
             surface.isovalue = 0; // `further` has what is drawn
@@ -262,6 +263,7 @@ Picture PictureMaker::kept(const Picture& picture,
         kept.pointed.reset();
         kept.audience.wand.reset();
     }
+    kept.layout.corners = {}; // the panel is not in it
     kept.legend = parts.legend;
     kept.bounding_box &= parts.box;
     // Also where no window is, so that a picture is made again as it was.

@@ -234,7 +234,7 @@ PanelModel Session::panel_model(const FrameReport& report) {
                        .allow = [this](const std::string& path) { models_.allow(path); }},
             .ghosts = {.wished = ghost_words(ghosts_.wished()), .shown = ghosts_.words()},
             .pieces = pieces_.in_panel(report, scene_.cells().shown()),
-            .notes = {.failure = failure(), .empty = nothing_.why()},
+            .notes = {.failure = failure(), .standing = captures_.note(), .empty = nothing_.why()},
             .controls = controls,
             .at_hand = kinds_at_hand(!config_.devices.empty() || outputs_.headset(), note_.input),
             .ways = {.undo = history_.undo(), .redo = history_.redo()},

@@ -63,10 +63,11 @@ PanelModel SessionPanel::told(PanelModel model, PanelPlace place) const {
         model.sessions = sessions_;
     model.notes.past = past_;
     model.notes.messages = messages_;
-    model.notes.standing = outputs_.headset() && outputs_.shows_windows()
-                               ? "No picture in the headset: the window shows the data instead. " +
-                                     outputs_.headset()->description()
-                               : standing_;
+    if (outputs_.headset() && outputs_.shows_windows())
+        model.notes.standing = "No picture in the headset: the window shows the data instead. " +
+                               outputs_.headset()->description();
+    else if (model.notes.standing.empty())
+        model.notes.standing = standing_;
     model.place = place;
     return model;
 }
@@ -112,8 +113,13 @@ void SessionPanel::draw_alone(const Facts& facts, interaction::Seconds time) {
 
 stereo::Margins SessionPanel::covered(const ExplorerState& state) const {
     const glm::ivec2 size = outputs_.windows().first().framebuffer_size();
-    return is_flat(state) ? over_.covered(size / places(state), rows_of(state))
-                          : stereo::Margins{};
+    return is_flat(state) ? over_.covered(size / places(state), rows_of(state)) : stereo::Margins{};
+}
+
+std::array<glm::vec2, 2> SessionPanel::corners(const ExplorerState& state) const {
+    if (covered(state) == stereo::Margins{})
+        return {};
+    return {kChipEnd / PanelLayer::kFontPixels, kCubeEnd / PanelLayer::kFontPixels};
 }
 
 float SessionPanel::text_share(const ExplorerState& state) const {

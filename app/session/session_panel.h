@@ -9,6 +9,7 @@
 #include "app/panel/panel_in_room.h"
 #include "app/session/window_contents.h"
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -77,6 +78,8 @@ class SessionPanel {
     }
     /// Pixels that it covers at the edges of the first window, in each eye's part.
     stereo::Margins covered(const ExplorerState& state) const;
+    /// What lies over the upper corners of the picture beside these margins, see `PictureLayout`.
+    std::array<glm::vec2, 2> corners(const ExplorerState& state) const;
     /// Height of its words, as a share of the height that it leaves free in each eye's part.
     float text_share(const ExplorerState& state) const;
     /// Whether mouse and keyboard play the head, before a screen that it carries along.

@@ -7,9 +7,8 @@ namespace {
 constexpr std::uint64_t kMostHeld = std::uint64_t{16} << 20; ///< [byte]
 
 /// @return where the next array begins
-template <class T>
-std::uint64_t read_array(const ScratchFile& file, std::uint64_t at, std::size_t count,
-                         std::vector<T>& out) {
+template <class T> // a vector
+std::uint64_t read_array(const ScratchFile& file, std::uint64_t at, std::size_t count, T& out) {
     out.resize(count);
     const auto bytes = std::as_writable_bytes(std::span(out));
     file.read(at, bytes);

@@ -51,7 +51,7 @@ class ExportedMesh {
     template <class Use>
     void each_placed_triangle(Use&& use) const {
         CellMesh read;
-        std::vector<MeshVertex> before, own; // triangles reach back by a piece at most
+        KeptVector<MeshVertex> before, own; // triangles reach back by a piece at most
         std::uint64_t end = 0;
         for (const Piece& piece : pieces_) {
             before = std::exchange(own, with_vertices(piece, read).vertices);

@@ -1,6 +1,8 @@
 // The background worker.
 #include "index/extraction/extractor.h"
 
+#include "index/system/kept_memory.h"
+
 #include <condition_variable>
 #include <mutex>
 #include <new>
@@ -68,6 +70,7 @@ struct Extractor::State {
     }
     bool has_work() const { return (wanted && !answered) || meshes_wanted() || prefetch_wanted(); }
 
+    bool await_work(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
     void work(const std::stop_token& stop);
     void add_meshes(const ExtractionPtr& set, std::unique_lock<std::mutex>& lock);
     SimplifiedMeshesPtr meshes_of(const ExtractionPtr& set, std::uint64_t room,
@@ -94,9 +97,22 @@ struct Extractor::State {
     std::jthread worker; ///< last, so that it starts after and ends before everything it uses
 };
 
+/// After a while without work, the memory of earlier meshes is given back to the system.
+/// @return false when there is none and the thread shall end
+bool Extractor::State::await_work(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
+    constexpr std::chrono::seconds kUntilFreed{3};
+    const auto any = [this] { return has_work(); };
+    if (changed.wait_for(lock, stop, kUntilFreed, any) || stop.stop_requested())
+        return has_work();
+    lock.unlock();
+    free_kept();
+    lock.lock();
+    return changed.wait(lock, stop, any);
+}
+
 void Extractor::State::work(const std::stop_token& stop) {
     std::unique_lock lock(mutex);
-    while (changed.wait(lock, stop, [this] { return has_work(); })) {
+    while (await_work(lock, stop)) {
         if (stop.stop_requested())
             return;
         if (const ExtractionPtr set = meshes_wanted()) {

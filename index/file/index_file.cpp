@@ -198,6 +198,7 @@ void IndexFile::set_arrays() {
     info.value_unit = metadata_.color->value_unit;
     info.type = metadata_.color->type;
     info.scaling = metadata_.color->scaling;
+    info.digits = telling_digits(metadata_.color->low, metadata_.color->high);
     colors_ = array_of("colors", details_, info);
     if (!metadata_.referral)
         return;

@@ -44,7 +44,7 @@ class MeasuredStep {
     std::uint64_t vertices() const { return clip_ ? cut_.vertices : mesh().vertices.size(); }
     /// Three points for each triangle.
     std::span<const std::uint32_t> corners() const {
-        return clip_ ? cut_.corners : mesh().triangles;
+        return clip_ ? std::span<const std::uint32_t>(cut_.corners) : mesh().triangles;
     }
     std::size_t triangles() const { return corners().size() / 3; }
     /// The other array's at the points; empty without one.

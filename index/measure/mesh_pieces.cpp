@@ -43,7 +43,7 @@ bool is_at_border(const MeshVertex& vertex, const Grid& grid) {
 /// border of the grid, which consists of closed lines, there are as many vertices as edges.
 MeshPieces by_vertices(const CellMesh& mesh, const Grid& grid) {
     DisjointSets sets(mesh.vertices.size());
-    const std::vector<std::uint32_t>& corners = mesh.triangles;
+    const std::span<const std::uint32_t> corners = mesh.triangles;
     for (std::size_t i = 0; i < corners.size(); i += 3) {
         sets.join(corners[i], corners[i + 1]);
         sets.join(corners[i], corners[i + 2]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/surface/gpu_formats.h"
+#include "index/system/kept_memory.h"
 
 #include <glm/vec3.hpp>
 
@@ -25,11 +26,11 @@ glm::dvec3 normal_of(const MeshVertex& vertex);
 /// differences (one-sided at the border of the grid). If one end is infinite, the cut is at the
 /// other one.
 struct CellMesh {
-    std::vector<MeshVertex> vertices;
+    KeptVector<MeshVertex> vertices;
     /// Three vertices each, counter-clockwise as seen from the side of lower values.
-    std::vector<std::uint32_t> triangles;
+    KeptVector<std::uint32_t> triangles;
     /// Case of each cell, see mesh_cases.h: gives its triangle count.
-    std::vector<std::uint8_t> cases;
+    KeptVector<std::uint8_t> cases;
     std::vector<float> values; ///< values of another array at the vertices, if they were asked for
     /// Fine color coordinates (cell_colors.h) of the vertices; empty if the surface has no colors.
     std::vector<std::uint16_t> colors;

@@ -8,21 +8,54 @@
 namespace isochron::index {
 namespace {
 
-/// Makes room for all parts, since a mesh that grows is copied.
-void reserve(const std::vector<MeshPart>& parts, CellMesh& mesh) {
-    std::size_t vertices = 0, triangles = 0, cells = 0, values = 0, colors = 0;
-    for (const MeshPart& part : parts) {
-        vertices += part.vertices.size();
-        triangles += part.triangles.size();
-        cells += part.cases.size();
-        values += part.values.size();
-        colors += part.colors.size();
+/// Meshes of fewer vertices are joined by one thread.
+constexpr std::size_t kVerticesOfThread = 1 << 16;
+
+/// Where the next part goes in a mesh.
+struct MeshEnds {
+    std::size_t vertices = 0, triangles = 0, cases = 0, values = 0, colors = 0;
+
+    static MeshEnds of(const CellMesh& mesh) {
+        return {mesh.vertices.size(), mesh.triangles.size(), mesh.cases.size(), mesh.values.size(),
+                mesh.colors.size()};
     }
-    mesh.vertices.reserve(vertices);
-    mesh.triangles.reserve(triangles);
-    mesh.cases.reserve(cells);
-    mesh.values.reserve(values);
-    mesh.colors.reserve(colors);
+    MeshEnds after(const MeshPart& part, std::uint32_t new_vertices) const {
+        return {vertices + new_vertices, triangles + part.triangles.size(),
+                cases + part.cases.size(), values + (part.values.empty() ? 0 : new_vertices),
+                colors + (part.colors.empty() ? 0 : new_vertices)};
+    }
+    void fit(CellMesh& mesh) const {
+        mesh.vertices.resize(vertices);
+        mesh.triangles.resize(triangles);
+        mesh.cases.resize(cases);
+        mesh.values.resize(values);
+        mesh.colors.resize(colors);
+    }
+};
+
+/// Copies what belongs to the part's new vertices.
+template <class From, class To>
+void copy_new(const From& from, const PartsJoiner::Numbers& numbers, To& to, std::size_t at) {
+    if (from.empty())
+        return;
+    auto out = to.begin() + static_cast<std::ptrdiff_t>(at);
+    for (const std::uint32_t i : numbers.new_first)
+        *out++ = from[i];
+    std::copy(from.begin() + static_cast<std::ptrdiff_t>(numbers.of_first.size()), from.end(), out);
+}
+
+void copy(const MeshPart& part, const PartsJoiner::Numbers& numbers, CellMesh& to,
+          const MeshEnds& at) {
+    copy_new(part.vertices, numbers, to.vertices, at.vertices);
+    copy_new(part.values, numbers, to.values, at.values);
+    copy_new(part.colors, numbers, to.colors, at.colors);
+    const std::span<const std::uint32_t> of_first = numbers.of_first;
+    std::ranges::transform(
+        part.triangles, to.triangles.begin() + static_cast<std::ptrdiff_t>(at.triangles),
+        [&](std::uint32_t corner) {
+            return corner < of_first.size() ? of_first[corner] : corner + numbers.offset;
+        });
+    std::ranges::copy(part.cases, to.cases.begin() + static_cast<std::ptrdiff_t>(at.cases));
 }
 
 /// The index in `ids` of the first cell of a plane at about `i` of `n` equal parts.
@@ -38,64 +71,67 @@ std::size_t cut_at(const Grid& grid, std::span<const CellId> ids, std::size_t i,
 } // namespace
 
 void PartsJoiner::add(const MeshPart& part, CellMesh& to) {
-    if (part.vertices.empty())
-        return;
-    find_known(part, to);
-    const auto first = static_cast<std::uint32_t>(numbers_.size());
-    const std::uint32_t offset = vertices_ - first;
-    to.vertices.insert(to.vertices.end(), part.vertices.begin() + first, part.vertices.end());
-    vertices_ += static_cast<std::uint32_t>(part.vertices.size()) - first;
-    if (!part.values.empty())
-        to.values.insert(to.values.end(), part.values.begin() + first, part.values.end());
-    if (!part.colors.empty())
-        to.colors.insert(to.colors.end(), part.colors.begin() + first, part.colors.end());
-    const auto number = [&](std::uint32_t of_part) {
-        return of_part < first ? numbers_[of_part] : of_part + offset;
-    };
-    const std::size_t before = to.triangles.size();
-    to.triangles.resize(before + part.triangles.size());
-    std::ranges::transform(part.triangles,
-                           to.triangles.begin() + static_cast<std::ptrdiff_t>(before), number);
-    to.cases.insert(to.cases.end(), part.cases.begin(), part.cases.end());
-    const std::uint32_t top = std::ranges::max_element(part.vertices, {}, &MeshVertex::z)->z;
-    shared_.clear();
-    for (std::uint32_t i = 0; i < part.vertices.size(); ++i)
-        if (part.vertices[i].z == top)
-            shared_.push_back({key_of(part.vertices[i]), number(i)});
-    std::ranges::sort(shared_, {}, &SharedVertex::key);
+    const Numbers numbers = number(part);
+    const MeshEnds at = MeshEnds::of(to);
+    at.after(part, numbers.count).fit(to);
+    copy(part, numbers, to, at);
 }
 
-/// Finds the vertices that the part before also has: only vertices of the part's first plane of
-/// cells can be shared, and these come first.
-void PartsJoiner::find_known(const MeshPart& part, CellMesh& to) {
-    const std::uint32_t end = part.vertices.front().z + 1u;
-    numbers_.clear();
+/// Only vertices of the part's first plane of cells can be shared, and these come first. Those of its
+/// last plane come last.
+PartsJoiner::Numbers PartsJoiner::number(const MeshPart& part) {
+    Numbers numbers{};
+    if (part.vertices.empty())
+        return numbers;
+    const std::uint32_t before = vertices_, end = part.vertices.front().z + 1u;
     for (const MeshVertex& vertex : part.vertices) {
         if (vertex.z > end)
-            return;
+            break;
         const EdgeKey key = key_of(vertex);
         const auto found = std::ranges::lower_bound(shared_, key, {}, &SharedVertex::key);
         if (found != shared_.end() && found->key == key) {
-            numbers_.push_back(found->number);
+            numbers.of_first.push_back(found->number);
         } else {
-            numbers_.push_back(vertices_++);
-            to.vertices.push_back(vertex);
-            if (!part.values.empty())
-                to.values.push_back(part.values[numbers_.size() - 1]);
-            if (!part.colors.empty())
-                to.colors.push_back(part.colors[numbers_.size() - 1]);
+            numbers.new_first.push_back(static_cast<std::uint32_t>(numbers.of_first.size()));
+            numbers.of_first.push_back(vertices_++);
         }
     }
+    const auto first = static_cast<std::uint32_t>(numbers.of_first.size()),
+               all = static_cast<std::uint32_t>(part.vertices.size());
+    numbers.offset = vertices_ - first;
+    vertices_ += all - first;
+    numbers.count = vertices_ - before;
+    // The vertices of a plane of cells are in its lower or its upper plane of vertices.
+    std::uint32_t top = 0;
+    shared_.clear();
+    for (std::uint32_t i = all; i-- > 0 && part.vertices[i].z + 1u >= top;) {
+        const MeshVertex& vertex = part.vertices[i];
+        if (vertex.z > top)
+            shared_.clear();
+        top = std::max<std::uint32_t>(top, vertex.z);
+        if (vertex.z == top)
+            shared_.push_back(
+                {key_of(vertex), i < first ? numbers.of_first[i] : i + numbers.offset});
+    }
+    std::ranges::sort(shared_, {}, &SharedVertex::key);
+    return numbers;
 }
 
 CellMesh join_parts(std::vector<MeshPart> parts) {
     if (parts.size() == 1)
         return std::move(parts.front());
     CellMesh mesh;
-    reserve(parts, mesh);
     PartsJoiner joiner;
-    for (const MeshPart& part : parts)
-        joiner.add(part, mesh);
+    std::vector<PartsJoiner::Numbers> numbers;
+    std::vector<MeshEnds> at(1);
+    for (const MeshPart& part : parts) {
+        numbers.push_back(joiner.number(part));
+        at.push_back(at.back().after(part, numbers.back().count));
+    }
+    at.back().fit(mesh);
+    const bool large = at.back().vertices >= kVerticesOfThread;
+    parallel_for(parts.size(), large ? thread_count(0) : 1,
+                 [&](std::size_t i, unsigned) { copy(parts[i], numbers[i], mesh, at[i]); }, {});
     return mesh;
 }
 

@@ -20,17 +20,25 @@ class PartsJoiner {
     /// @param to what was joined so far, or an empty mesh that gets this part alone
     void add(const MeshPart& part, CellMesh& to);
 
+    /// What a part's vertices become among those of all parts.
+    struct Numbers {
+        std::vector<std::uint32_t> of_first;  ///< numbers of vertices that the part before may have
+        std::vector<std::uint32_t> new_first; ///< places of those that it does not have
+        std::uint32_t offset;                 ///< what is added to the places of the others
+        std::uint32_t count; ///< number of vertices that the part before does not have
+    };
+    /// Numbers the vertices of the next part.
+    Numbers number(const MeshPart& part);
+
   private:
     /// A vertex that the next part may also have.
     struct SharedVertex {
         EdgeKey key;
         std::uint32_t number;
     };
-    void find_known(const MeshPart& part, CellMesh& to);
 
-    std::uint32_t vertices_ = 0;         ///< number of vertices of all parts
-    std::vector<SharedVertex> shared_;   ///< in the last plane of the part before
-    std::vector<std::uint32_t> numbers_; ///< numbers of the part's first vertices
+    std::uint32_t vertices_ = 0;       ///< number of vertices of all parts
+    std::vector<SharedVertex> shared_; ///< in the last plane of the part before
 };
 
 /// Joins the parts of consecutive planes, which together are all planes of a step. Vertices on the

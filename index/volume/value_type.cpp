@@ -1,7 +1,9 @@
 // Names and sizes of the value types.
 #include "index/volume/value_type.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace isochron::index {
 namespace {
@@ -26,6 +28,17 @@ std::optional<ValueType> value_type_from_name(std::string_view name) {
         if (name_of(type) == name)
             return type;
     return std::nullopt;
+}
+
+int telling_digits(double low, double high) {
+    constexpr int kMost = 12;
+    const auto power = [](double number) {
+        return number == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(number))));
+    };
+    const double apart = std::abs(high - low), larger = std::max(std::abs(low), std::abs(high));
+    return std::isfinite(apart) && apart > 0
+               ? std::clamp(power(larger) - power(apart) + 4, kFewestDigits, kMost)
+               : kFewestDigits;
 }
 
 } // namespace isochron::index

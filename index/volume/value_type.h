@@ -19,6 +19,12 @@ std::size_t size_of(ValueType type);
 std::string_view name_of(ValueType type);
 std::optional<ValueType> value_type_from_name(std::string_view name);
 
+/// Significant digits in which values are said where nothing is known of their range.
+inline constexpr int kFewestDigits = 6;
+/// Significant digits that tell the values of a range apart to a thousandth of it, 6 to 12: 8 for
+/// pressures from 101316 to 101326 Pa.
+int telling_digits(double low, double high);
+
 /// Calls `f(std::type_identity<T>{})` with the C++ type of `type`.
 template <class F>
 decltype(auto) visit_value_type(ValueType type, F&& f) {

@@ -35,6 +35,7 @@ struct SeriesInfo {
     std::array<std::string, 3> axis_names;
     ValueType type = ValueType::f32;
     Scaling scaling;
+    int digits = kFewestDigits; ///< significant ones in words, see `telling_digits`
     std::vector<double>
         times; ///< physical time of every step, increasing; the step number if unknown
     /// Steps, ascending, behind which numbers or dates are missing in the names of the files.

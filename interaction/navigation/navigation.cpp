@@ -70,6 +70,22 @@ Similarity moved(const Similarity& from, const glm::dvec3& offset) {
     return {from.translation + offset, from.rotation, from.scale, from.exaggeration};
 }
 
+Similarity brought_into_view(const Similarity& from, std::span<const glm::dvec3> places,
+                             const Pose& viewer) {
+    constexpr double kInSight = 0.35; // [rad] off the way ahead
+    glm::dvec3 low = transform(from, places[0]), high = low;
+    for (const glm::dvec3& place : places) {
+        low = glm::min(low, transform(from, place));
+        high = glm::max(high, transform(from, place));
+    }
+    const glm::dvec3 middle = (low + high) / 2.0, eye(viewer.position);
+    const glm::dvec3 ahead = glm::normalize(glm::dquat(viewer.orientation)) * glm::dvec3(0, 0, -1);
+    const double radius = glm::distance(low, high) / 2, away = glm::distance(middle, eye);
+    if (away >= radius && glm::dot(middle - eye, ahead) >= std::cos(kInSight) * away)
+        return from;
+    return moved(from, eye + std::max(away, radius / std::sin(kInSight)) * ahead - middle);
+}
+
 Similarity scaled(const Similarity& from, const glm::dvec3& center, double factor, double low,
                   double high) {
     if (!(factor > 0.0) || !(low <= high))

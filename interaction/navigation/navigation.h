@@ -4,6 +4,7 @@
 #include "interaction/pose.h"
 
 #include <optional>
+#include <span>
 
 namespace isochron::interaction {
 
@@ -24,6 +25,12 @@ Similarity turned(const Similarity& from, const glm::dvec3& center, const glm::d
 
 /// Moved by `offset` [m].
 Similarity moved(const Similarity& from, const glm::dvec3& offset);
+
+/// Moved so that places of the data are before the viewer: their middle straight ahead, as far as it
+/// was, or farther so that all of them are in sight. Where their middle is in sight nothing moves.
+/// @param places in physical space, one at least
+Similarity brought_into_view(const Similarity& from, std::span<const glm::dvec3> places,
+                             const Pose& viewer);
 
 /// Scaled by `factor` about the room point `center`; the scale stays within [low, high], and a
 /// factor that is not a positive number changes nothing.

@@ -11,7 +11,6 @@
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
 #include "tests/bench/benchmarks.h"
-#include "tests/bench/cold_steps.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/measures/isovalues.h"
 #include "tests/bench/measures/mesh_making.h"
@@ -26,11 +25,15 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <memory>
 
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace isochron::bench {
 namespace {
@@ -46,7 +49,6 @@ struct ScaleArguments {
     fs::path work = fs::temp_directory_path();
     bool vtk = false;
     bool warm = false;
-    bool small = false;
 };
 
 /// Bytes that this process has read from disks.
@@ -54,6 +56,23 @@ std::uint64_t bytes_from_disk() {
     struct rusage usage {};
     ::getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_inblock) * 512;
+}
+
+/// Elapsed time [s].
+double seconds_of(const std::function<void()>& work) {
+    const auto started = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+}
+
+/// Drops a file from the page cache. @throws Error if it cannot be opened
+void forget(const fs::path& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+        throw index::Error(fmt::format("{}: cannot be opened", path.string()));
+    ::fsync(file);
+    ::posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED);
+    ::close(file);
 }
 
 /// One step of turbulence as raw values: floats, or bytes of which 255 is the highest.
@@ -289,12 +308,6 @@ void run_bench_scale(const ScaleArguments& arguments) {
     const app::CancelOnSignal signals;
     const auto header = this_machine();
     fmt::print("commit {}, {}, {} threads\n", header.commit, header.processor, header.threads);
-    if (arguments.small) {
-        const WorkFolder folder(arguments.work);
-        return measure_cold_steps(
-            folder.path(), [&](std::string_view, double) { signals.check(); },
-            [](const std::string& row) { fmt::print("{}", row); });
-    }
     for (const std::string& name : arguments.fields)
         (arguments.warm ? measure_warm : measure_field)(
             arguments, name, [&](std::string_view, double) { signals.check(); });
@@ -323,9 +336,6 @@ void add_scale(app::Command& program) {
     command.flag("--warm", arguments->warm,
                  "Measure ids of a float step in memory instead, by bricks and by the scan, and "
                  "what limits them; with --vtk also how long its mesh takes");
-    command.flag("--small", arguments->small,
-                 "Measure the first look at steps of series of 64^3 to 256 x 128 x 64 instead, of "
-                 "an index that is open");
     command.option("--work", arguments->work, "Folder for the files, on a disk: two steps")
         .existing_folder()
         .type_name("DIR")

@@ -271,7 +271,8 @@ TEST_P(DamagedImage, IsOneLineOrNone) {
     const std::string whole = bytes_of(name);
     std::mt19937 random(test_seed());
     int refused = 0;
-    for (int i = 0; i < 30; ++i) {
+    const int rounds = tries(30);
+    for (int i = 0; i < rounds; ++i) {
         std::string bytes = whole;
         if (i % 2)
             bytes.resize(random() % bytes.size());
@@ -291,7 +292,7 @@ TEST_P(DamagedImage, IsOneLineOrNone) {
                   ""); // the line that the caller writes is the only one
     }
     // Whatever is cut, save the last bytes, which hold no pixels. JPEG has no checksums.
-    EXPECT_GT(refused, name == "a.jpg" ? 12 : 15);
+    EXPECT_GE(refused, rounds * (name == "a.jpg" ? 4 : 5) / 10);
 }
 
 TEST(ImageCompare, SeesSmallDifferencesAndWritesThem) {

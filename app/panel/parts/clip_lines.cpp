@@ -22,8 +22,9 @@ using interaction::ClipPlane;
 using interaction::Commands;
 
 /// The box's ends along each axis, as indices of vertices, while it is shown.
-void box_fields(const PanelModel& model, Commands& commands) {
+void box_fields(const PanelModel& model, float right, Commands& commands) {
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+    constexpr float kBefore = 4.0f, kEnd = 54.0f; // the gap before a field, and its width
     interaction::ClipBox box = model.asked.clip_box;
     if (!box.shown)
         return;
@@ -31,13 +32,15 @@ void box_fields(const PanelModel& model, Commands& commands) {
     ImGui::TextColored(color_of(Ink::dim), "box");
     for (int axis = 0; axis < 3; ++axis) {
         ImGui::PushID(axis);
-        ImGui::SameLine();
-        ImGui::TextColored(color_of(Ink::dim), "%s", kAxes[static_cast<std::size_t>(axis)]);
+        const char* const name = kAxes[static_cast<std::size_t>(axis)];
+        go_on_within(right, ImGui::CalcTextSize(name).x + 2 * (kBefore + kEnd));
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextColored(color_of(Ink::dim), "%s", name);
         const FieldRange range{.low = 0, .high = model.data.cells[axis]};
         for (const bool high : {false, true}) {
             double& end = high ? box.high[axis] : box.low[axis];
-            ImGui::SameLine(0.0f, 4.0f);
-            ImGui::SetNextItemWidth(54.0f);
+            ImGui::SameLine(0.0f, kBefore);
+            ImGui::SetNextItemWidth(kEnd);
             number_field(high ? "##high" : "##low", end, range, "%.4g");
             tip("an end of the box, as the index of a vertex (--crop of commands counts so): drag, "
                 "or click and type");
@@ -50,7 +53,8 @@ void box_fields(const PanelModel& model, Commands& commands) {
 
 } // namespace
 
-void clip_lines(const PanelModel& model, Commands& commands) {
+void clip_lines(const PanelModel& model, float width, Commands& commands) {
+    const float right = ImGui::GetCursorScreenPos().x + width;
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(color_of(Ink::dim), "clip across");
@@ -63,28 +67,28 @@ void clip_lines(const PanelModel& model, Commands& commands) {
             "cut away (Ctrl + 7)");
         ImGui::PopID();
     }
-    ImGui::SameLine();
+    go_on_within(right, tick_width("box"));
     bool boxed = model.asked.clip_box.shown;
     if (tick_field("##box", boxed, "box"))
         commands.clip_box = boxed ? interaction::whole_box(model.data) : interaction::ClipBox{};
     tip("a box along the data's axes outside which all is cut away: drag its faces");
     if (!model.asked.clip.shown) {
-        box_fields(model, commands);
+        box_fields(model, right, commands);
         return;
     }
     const float side = ImGui::GetFrameHeight();
-    ImGui::SameLine();
+    go_on_within(right, side);
     if (icon_button("flip", Icon::flip, "cut away the other side (Ctrl + 7)", false, side))
         commands.clip = interaction::flipped(model.asked.clip);
-    ImGui::SameLine();
+    go_on_within(right, side);
     if (icon_button("no clip", Icon::remove, "remove the clip plane (Delete)", false, side))
         commands.clip = ClipPlane{};
     const ClipPlane& now = model.asked.clip;
     interaction::Plane plane{now.point, now.normal};
-    plane_fields(model, plane, "the plane's normal: it points to the side that is cut away");
+    plane_fields(model, plane, right, "the plane's normal: it points to the side that is cut away");
     if (plane != interaction::Plane{now.point, now.normal})
         commands.clip = {true, plane.point, plane.normal};
-    box_fields(model, commands);
+    box_fields(model, right, commands);
 }
 
 } // namespace isochron::app

@@ -7,7 +7,7 @@
 namespace isochron::app {
 
 /// Two lines in the current window: buttons for planes across the axes, and the numbers of the
-/// plane that is shown.
-void clip_lines(const PanelModel& model, interaction::Commands& commands);
+/// plane that is shown; more where they have no room. @param width of the room, screen pixels
+void clip_lines(const PanelModel& model, float width, interaction::Commands& commands);
 
 } // namespace isochron::app

@@ -95,7 +95,7 @@ std::vector<Choice> choices_of(const PanelModel& model) {
 std::string words_of(const PanelModel& model, std::size_t surface) {
     const index::SeriesInfo& info = model.info_of(surface);
     return (model.arrays.of(surface) ? info.array + " " : "") +
-           with_unit(model.asked.isosurfaces[surface].isovalue, info.value_unit);
+           with_unit(model.asked.isosurfaces[surface].isovalue, info.value_unit, info.digits);
 }
 
 Shown shown_in(const PanelModel& model) {
@@ -112,13 +112,13 @@ Shown shown_in(const PanelModel& model) {
     return shown;
 }
 
-/// Counts have all their digits.
-std::string number_text(double value, const std::string& unit) {
+/// Counts have all their digits. @param digits most significant ones of other numbers
+std::string number_text(double value, const std::string& unit, int digits = index::kFewestDigits) {
     constexpr double kMostCounted = 1e15;
     if (!std::isfinite(value))
         return "-";
     if (!unit.empty() || value != std::floor(value) || std::abs(value) > kMostCounted)
-        return with_unit(value, unit);
+        return with_unit(value, unit, digits);
     return (value < 0 ? "-" : "") + grouped(static_cast<std::uint64_t>(std::abs(value)));
 }
 
@@ -332,7 +332,8 @@ void profile_crossings(const PanelModel& model, const ImVec2& size) {
     for (const interaction::Isosurface& each : model.asked.isosurfaces) {
         if (each.opacity <= 0)
             continue;
-        const std::string words = with_unit(each.isovalue, model.info.value_unit);
+        const std::string words =
+            with_unit(each.isovalue, model.info.value_unit, model.info.digits);
         const std::vector<Crossing> all = crossings_of(profile.values, each.isovalue);
         swatch(line_color(each));
         fitted_text((all.empty() ? "never crosses " : "crosses ") + words,
@@ -346,6 +347,16 @@ void profile_crossings(const PanelModel& model, const ImVec2& size) {
         }
     }
     ImGui::EndChild();
+}
+
+/// The number in the most digits for which there is room, three at least, so that it is not cut.
+std::string number_within(float width, double value, const std::string& unit) {
+    constexpr int kFewest = 3;
+    int digits = index::kFewestDigits;
+    std::string words = number_text(value, unit);
+    while (--digits >= kFewest && ImGui::CalcTextSize(words.c_str()).x > width)
+        words = number_text(value, unit, digits);
+    return words;
 }
 
 /// The numbers of the present step: a line for each measure, a column for each surface.
@@ -390,9 +401,9 @@ void table(const PanelModel& model, const Shown& shown, const ImVec2& size, Comm
             if (of_mark && i > 0)
                 continue;
             const StepCurve& curve = of_mark ? *model.curves.mark : *shown.surfaces[i].curve;
-            fitted_text(number_text(at_step(curve, choice.number, now), choice.unit),
-                        ImGui::GetContentRegionAvail().x,
-                        color_of(k == shown.chosen ? Ink::text : Ink::dim));
+            const float width = ImGui::GetContentRegionAvail().x;
+            fitted_text(number_within(width, at_step(curve, choice.number, now), choice.unit),
+                        width, color_of(k == shown.chosen ? Ink::text : Ink::dim));
         }
         ImGui::PopID();
     }

@@ -250,10 +250,10 @@ void histogram(const PanelModel& model, Commands& commands) {
             commands.picked = surface;
         commands.isovalue = plot.value_at(pointed);
     }
+    const index::SeriesInfo& info = model.picked_info();
     if (hovered && plot.has_span())
-        ImGui::SetTooltip(
-            "%s\nthe wheel zooms",
-            with_unit(plot.value_at(pointed), model.picked_info().value_unit).c_str());
+        ImGui::SetTooltip("%s\nthe wheel zooms",
+                          with_unit(plot.value_at(pointed), info.value_unit, info.digits).c_str());
     scale_choice(plot, *logarithmic, zoom);
     *seen_low = zoom.low;
     *seen_high = zoom.high;

@@ -33,6 +33,10 @@ struct ItemLine {
 };
 
 void item_eye(const ItemLine& line, Commands& commands) {
+    if (!line.kind.has_eye()) {
+        ImGui::Dummy({kItemSide, kItemSide});
+        return;
+    }
     const Item& item = line.item;
     if (item.opacity && *item.opacity > 0)
         line.before = *item.opacity;
@@ -62,15 +66,15 @@ void item_words(const ItemLine& line, Commands& commands) {
     const float width =
         ImGui::GetContentRegionAvail().x - kItemSide - ImGui::GetStyle().ItemSpacing.x;
     const ImVec2 corner = ImGui::GetCursorPos();
-    if (ImGui::InvisibleButton("words", {std::max(width, 1.0f), kItemSide}) && line.kind.go)
-        line.kind.go(line.model, line.number, commands);
-    if (line.kind.go && ImGui::IsItemHovered()) {
+    if (ImGui::InvisibleButton("words", {std::max(width, 1.0f), kItemSide}) && line.kind.can_go())
+        go_to_item(line.kind, line.model, line.number, commands);
+    if (line.kind.can_go() && ImGui::IsItemHovered()) {
         const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
         ImGui::GetWindowDrawList()->AddRectFilled(
             low, high, ImGui::GetColorU32(ImGuiCol_FrameBgHovered), 3.0f);
     }
     const std::string note = fmt::format("{}{}{}", item.note, item.note.empty() ? "" : "\n",
-                                         line.kind.go ? line.kind.go_words : "");
+                                         line.kind.can_go() ? line.kind.go_words : "");
     if (!note.empty())
         tip(note.c_str());
     ImGui::OpenPopupOnItemClick("item", ImGuiPopupFlags_MouseButtonRight);
@@ -107,8 +111,8 @@ void item_menu(const ItemLine& line, Commands& commands) {
             kind.fade(model, i, opacity, commands);
         tip("opacity");
     }
-    if (kind.go && ImGui::MenuItem(kind.go_words, nullptr, item.picked))
-        kind.go(model, i, commands);
+    if (kind.can_go() && ImGui::MenuItem(kind.go_words, nullptr, item.picked))
+        go_to_item(kind, model, i, commands);
     const std::size_t count = kind.count(model);
     if (kind.alone && count > 1 && ImGui::MenuItem("show it alone"))
         show_alone(kind, model, i, commands);

@@ -35,6 +35,10 @@ struct PanelLayout {
     bool operator==(const PanelLayout&) const = default;
 };
 
+/// How far the chip reaches from the upper left corner of the picture, at most, and the cube from the
+/// upper right one, panel pixels.
+inline constexpr glm::vec2 kChipEnd{142.0f, 38.0f}, kCubeEnd{100.0f, 98.0f};
+
 /// The rows between the picture and the bar of the time that are open.
 struct PanelRows {
     bool film = false, curves = false;

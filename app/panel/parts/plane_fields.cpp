@@ -18,6 +18,8 @@ namespace {
 
 using interaction::Plane;
 
+constexpr float kPartOfNormal = 48.0f; ///< width of the field of a part of the normal
+
 /// The plane's normal or its opposite: the one whose largest part is positive, so that places along
 /// it are coordinates where the plane lies across an axis.
 glm::dvec3 upwards(const glm::dvec3& normal) {
@@ -65,7 +67,7 @@ void normal_fields(Plane& plane, const char* effect) {
     for (int axis = 0; axis < 3; ++axis) {
         const char* const id = kIds[static_cast<std::size_t>(axis)];
         ImGui::SameLine();
-        ImGui::SetNextItemWidth(48.0f);
+        ImGui::SetNextItemWidth(kPartOfNormal);
         if (number_field(id, typed[axis], {.low = -1, .high = 1, .bounded = false}, "%.3g") &&
             std::isfinite(typed[axis]) && glm::length(typed) > 1e-6)
             plane.normal = glm::normalize(typed);
@@ -76,12 +78,14 @@ void normal_fields(Plane& plane, const char* effect) {
 
 } // namespace
 
-void plane_fields(const PanelModel& model, Plane& plane, const char* normal) {
+void plane_fields(const PanelModel& model, Plane& plane, float right, const char* normal) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(color_of(Ink::dim), "at");
     ImGui::SameLine();
     place_field(model, plane);
-    ImGui::SameLine();
+    go_on_within(right, ImGui::CalcTextSize("normal").x +
+                            3 * (ImGui::GetStyle().ItemSpacing.x + kPartOfNormal));
+    ImGui::AlignTextToFramePadding();
     ImGui::TextColored(color_of(Ink::dim), "normal");
     normal_fields(plane, normal);
 }

@@ -6,7 +6,9 @@
 
 namespace isochron::app {
 
-/// A line in the current window. @param normal tip of the normal's fields
-void plane_fields(const PanelModel& model, interaction::Plane& plane, const char* normal);
+/// A line in the current window, or two where it has no room. @param right end of the room, screen
+/// pixels @param normal tip of the normal's fields
+void plane_fields(const PanelModel& model, interaction::Plane& plane, float right,
+                  const char* normal);
 
 } // namespace isochron::app

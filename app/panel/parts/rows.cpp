@@ -7,6 +7,7 @@
 #include "app/panel/parts/theme.h"
 #include "app/text.h"
 
+#include <fmt/format.h>
 #include <imgui_internal.h>
 
 #include <algorithm>
@@ -191,6 +192,20 @@ bool tick_field(const char* id, bool& on, const char* words) {
     return changed;
 }
 
+void go_on_within(float right, float width, float gap) {
+    const float apart = gap < 0 ? ImGui::GetStyle().ItemSpacing.x : gap;
+    if (ImGui::GetItemRectMax().x + apart + width <= right)
+        ImGui::SameLine(0.0f, apart);
+}
+
+float button_width(const char* words) {
+    return ImGui::CalcTextSize(words).x + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
+float tick_width(const char* words) {
+    return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x + ImGui::CalcTextSize(words).x;
+}
+
 LinePress table_line(bool chosen, float height) {
     ImGui::Selectable("##line", chosen, height > 0 ? 0 : ImGuiSelectableFlags_SpanAllColumns,
                       {0.0f, height});
@@ -201,14 +216,14 @@ LinePress table_line(bool chosen, float height) {
     return even ? LinePress::twice : LinePress::once;
 }
 
-std::string format_with(const std::string& unit, const std::string& words) {
+std::string format_with(const std::string& unit, const std::string& words, int digits) {
     std::string format;
     const auto add = [&](const std::string& text) {
         for (const char c : text)
             format += c == '%' ? "%%" : std::string(1, c);
     };
     add(words);
-    format += format.empty() ? "%.6g" : " %.6g";
+    format += fmt::format("{}%.{}g", format.empty() ? "" : " ", digits);
     if (!unit.empty())
         add(" " + unit);
     return format;

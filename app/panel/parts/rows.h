@@ -1,6 +1,8 @@
 // Rows of the panel's sections: the label in a column at the left, the control beside it.
 #pragma once
 
+#include "index/volume/value_type.h"
+
 #include <imgui.h>
 
 #include <cstddef>
@@ -56,6 +58,13 @@ bool tick_field(const char* id, bool& on, const char* words = "");
 /// What the mouse does with a line of a list.
 enum class LinePress { none, once, twice };
 
+/// The next control stands in the same line where it has room there, else in a new one.
+/// @param right end of the room, screen pixels @param width of the control @param gap before it; -1:
+/// the usual one
+void go_on_within(float right, float width, float gap = -1.0f);
+float button_width(const char* words);
+float tick_width(const char* words); ///< width of a `tick_field`
+
 /// A line over all columns of its table: a press chooses it, a second one soon after opens it, and
 /// a third one is a first one again. A press counts also in the frame in which a field of the same
 /// window takes the keyboard, where ImGui's own lines miss it.
@@ -64,6 +73,8 @@ LinePress table_line(bool chosen, float height = 0.0f);
 
 /// The format of a number with its unit, behind words if there are any; percent signs of both are
 /// escaped.
-std::string format_with(const std::string& unit, const std::string& words = {});
+/// @param digits significant ones
+std::string format_with(const std::string& unit, const std::string& words = {},
+                        int digits = index::kFewestDigits);
 
 } // namespace isochron::app

@@ -83,7 +83,7 @@ void data_section(const PanelModel& model, PanelPages& pages, Commands& commands
         return;
     row("sessions");
     if (const auto chosen = session_field(
-            "##sessions", fmt::format("{} to go on with", model.sessions.size()), model.sessions)) {
+            "##sessions", fmt::format("{} earlier", model.sessions.size()), model.sessions)) {
         pages.session = chosen;
         interaction::merge(commands, model.sessions[*chosen].commands);
     }

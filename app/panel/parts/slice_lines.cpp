@@ -25,14 +25,15 @@ namespace {
 using interaction::Slices;
 
 /// A button for each slice, which picks it, and one that adds another.
-void slice_buttons(const PanelModel& model, Slices& slices) {
+void slice_buttons(const PanelModel& model, float right, Slices& slices) {
+    constexpr float kWidth = 24.0f;
     for (std::uint32_t i = 0; slices.planes.size() > 1 && i < slices.planes.size(); ++i) {
-        ImGui::SameLine();
+        go_on_within(right, kWidth);
         ImGui::PushID(static_cast<int>(i));
         const bool picked = i == slices.picked;
         if (picked)
             ImGui::PushStyleColor(ImGuiCol_Button, color_of(Ink::chosen));
-        if (ImGui::Button(fmt::format("{}", i + 1).c_str(), {24.0f, 0.0f}))
+        if (ImGui::Button(fmt::format("{}", i + 1).c_str(), {kWidth, 0.0f}))
             slices.picked = i;
         if (picked)
             ImGui::PopStyleColor();
@@ -40,7 +41,7 @@ void slice_buttons(const PanelModel& model, Slices& slices) {
         ImGui::PopID();
     }
     if (slices.planes.size() < interaction::kMostSlices) {
-        ImGui::SameLine();
+        go_on_within(right, ImGui::GetFrameHeight());
         if (icon_button("add slice", Icon::add, "one more slice (Ctrl + Shift + 6)", false,
                         ImGui::GetFrameHeight()))
             slices = with_slice(slices, model.data);
@@ -68,8 +69,10 @@ interaction::Commands flat_view(const PanelModel& model, Slices slices) {
     return commands;
 }
 
-void slice_lines(const PanelModel& model, interaction::Commands& commands) {
+void slice_lines(const PanelModel& model, float width, interaction::Commands& commands) {
     constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+    constexpr float kGap = 14.0f;
+    const float right = ImGui::GetCursorScreenPos().x + width;
     Slices slices = model.asked.slices;
     ImGui::PushID("slices");
     ImGui::AlignTextToFramePadding();
@@ -84,17 +87,17 @@ void slice_lines(const PanelModel& model, interaction::Commands& commands) {
     }
     if (slices.shown()) {
         const float side = ImGui::GetFrameHeight();
-        slice_buttons(model, slices);
-        ImGui::SameLine();
+        slice_buttons(model, right, slices);
+        go_on_within(right, side);
         if (icon_button("no slice", Icon::remove, "remove this slice (Delete: all)", false, side))
             slices = without_slice(slices);
-        ImGui::SameLine(0.0f, 14.0f);
+        go_on_within(right, tick_width("isolines"), kGap);
         tick_field("##isolines", slices.isolines, "isolines");
         tip("the isovalues of the surfaces as lines on the slices");
-        ImGui::SameLine(0.0f, 14.0f);
+        go_on_within(right, tick_width("alone"), kGap);
         tick_field("##alone", slices.alone, "alone");
         tip("hide the surfaces (Ctrl + H)");
-        ImGui::SameLine(0.0f, 14.0f);
+        go_on_within(right, button_width("flat"), kGap);
         if (ImGui::Button("flat"))
             merge(commands, flat_view(model, slices));
         tip("look straight at the slice, alone and in parallel projection");
@@ -107,7 +110,7 @@ void slice_lines(const PanelModel& model, interaction::Commands& commands) {
             tip(forward ? "one cell along the normal (Ctrl + Up)" : "one cell back (Ctrl + Down)");
             ImGui::SameLine();
         }
-        plane_fields(model, slices.planes[slices.picked], "the slice's normal");
+        plane_fields(model, slices.planes[slices.picked], right, "the slice's normal");
     }
     ImGui::PopID();
     if (slices != model.asked.slices)

@@ -137,14 +137,15 @@ void surface_row(const PanelModel& model, std::uint32_t i, Isosurface& surface,
     const index::SeriesInfo& info = model.info_of(i);
     const index::IndexStats& stats = model.stats_of(i);
     const bool own = model.arrays.of(i) != nullptr; // its array is not the shown one
-    const std::string number = " " + with_unit(surface.isovalue, info.value_unit);
+    const std::string number = " " + with_unit(surface.isovalue, info.value_unit, info.digits);
     const float left = width - ImGui::CalcTextSize(number.c_str()).x - gap;
     double value = surface.isovalue;
     if (number_field("##isovalue", value,
                      {.low = std::clamp(stats.low, -kMost, kMost),
                       .high = std::clamp(stats.high, -kMost, kMost),
                       .bounded = false},
-                     format_with(info.value_unit, own ? cut_to(info.array, left) : "").c_str())) {
+                     format_with(info.value_unit, own ? cut_to(info.array, left) : "", info.digits)
+                         .c_str())) {
         change.picked = i;
         change.isovalue = value;
     }

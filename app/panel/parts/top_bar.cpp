@@ -175,18 +175,22 @@ void top_bar(const PanelModel& model, PanelPages& pages, Commands& commands) {
 
 namespace {
 
+constexpr float kGapOfRuler = 14.0f;
+
 /// The picked ruler and what it measures, what the next one measures, and the values along it.
-void ruler_lines(const PanelModel& model, Commands& commands) {
+void ruler_lines(const PanelModel& model, float width, Commands& commands) {
+    const float right = ImGui::GetCursorScreenPos().x + width;
     const interaction::Rulers& rulers = model.asked.rulers;
     ImGui::AlignTextToFramePadding();
     ImGui::TextColored(color_of(Ink::dim), "%s", interaction::ruler_line(model.asked).c_str());
     const interaction::Ruler* const ruler = rulers.chosen();
     if (ruler && ruler->complete()) {
-        ImGui::SameLine();
-        text((rulers.list.size() > 1 ? ruler->name + ": " : std::string()) +
-             interaction::measured_text(*ruler, model.data.unit));
+        const std::string measured = (rulers.list.size() > 1 ? ruler->name + ": " : std::string()) +
+                                     interaction::measured_text(*ruler, model.data.unit);
+        go_on_within(right, ImGui::CalcTextSize(measured.c_str()).x);
+        text(measured);
     }
-    ImGui::SameLine(0.0f, 14.0f);
+    go_on_within(right, tick_width("angle"), kGapOfRuler);
     bool angle = rulers.angle;
     if (tick_field("##angle", angle, "angle"))
         commands.rulers = with_angle(rulers, angle);
@@ -194,12 +198,12 @@ void ruler_lines(const PanelModel& model, Commands& commands) {
     if (!ruler)
         return;
     if (ruler->complete()) {
-        ImGui::SameLine(0.0f, 14.0f);
+        go_on_within(right, button_width("values"), kGapOfRuler);
         if (ImGui::Button("values"))
             commands.curves = interaction::profile_on_or_off(model.asked.curves);
         tip("the values along the ruler as a curve (Ctrl + Shift + D)");
     }
-    ImGui::SameLine();
+    go_on_within(right, ImGui::GetFrameHeight());
     if (icon_button("no ruler", Icon::remove,
                     rulers.list.size() > 1 ? "remove this ruler (Delete); the others are in the "
                                              "list of objects"
@@ -230,11 +234,11 @@ void tool_strip(const PanelModel& model, float width, Commands& commands) {
         if (!has_line(tool, model))
             continue;
         if (tool.kind == ToolKind::clip)
-            clip_lines(model, commands);
+            clip_lines(model, width, commands);
         else if (tool.kind == ToolKind::slice)
-            slice_lines(model, commands);
+            slice_lines(model, width, commands);
         else if (tool.kind == ToolKind::ruler)
-            ruler_lines(model, commands);
+            ruler_lines(model, width, commands);
     }
     if (model.asked.mark.point)
         mark_lines(model, width, commands);

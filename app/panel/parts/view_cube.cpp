@@ -21,8 +21,8 @@ namespace {
 
 using interaction::AxisView;
 
-constexpr float kAbove = 6.0f;                 ///< the cube, panel pixels
-constexpr float kSide = kViewCubeEnd - kAbove; ///< side of the cube's window, panel pixels
+constexpr float kAbove = 6.0f;               ///< the cube, panel pixels
+constexpr float kSide = kCubeEnd.y - kAbove; ///< side of the cube's window, panel pixels
 constexpr float kHalfEdge = 25.0f; ///< half an edge of the cube: its corners stay in the window
 constexpr float kCornerReach = 7.0f;
 constexpr double kSeen = 0.08;   ///< cosine from which on a face is drawn
@@ -136,7 +136,7 @@ void small_cube(const PanelModel& model, const interaction::Similarity& placed,
 float view_cube(const PanelModel& model, const PanelBox& picture, interaction::Commands& commands) {
     if (picture.size().x < 3 * kSide || picture.size().y < 2 * kSide)
         return picture.high.x;
-    const ImVec2 corner(picture.high.x - kSide - 8.0f, picture.low.y + kAbove);
+    const ImVec2 corner(picture.high.x - kCubeEnd.x, picture.low.y + kAbove);
     ImGui::SetNextWindowPos(corner);
     ImGui::SetNextWindowSize({kSide, kSide});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});

@@ -9,9 +9,6 @@
 
 namespace isochron::app {
 
-/// From the upper edge of the picture to the lower one of the cube.
-inline constexpr float kViewCubeEnd = 98.0f;
-
 /// Lays it out at the upper right of the picture. A face that is clicked looks at the viewer then;
 /// the corner that is nearest to the viewer leads to the isometric view.
 /// @return the left end of the cube; of a picture without room for it the right end

@@ -135,9 +135,10 @@ ChosenTiers plan_of(const json& j) {
 
 void set_counts(Metadata& metadata, ValueCounts counts) {
     IndexStats& stats = metadata.stats;
-    const SeriesInfo& info = metadata.info;
+    SeriesInfo& info = metadata.info;
     stats.low = counts.scaled_low(info.scaling);
     stats.high = counts.scaled_high(info.scaling);
+    info.digits = telling_digits(stats.low, stats.high);
     stats.nan_values = counts.nan_values;
     stats.histogram = counts.histogram(info.type, info.scaling);
     stats.counts = std::move(counts);

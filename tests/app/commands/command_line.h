@@ -1,6 +1,7 @@
 // A folder with a small series, and the commands run in it as a user runs them.
 #pragma once
 
+#include "tests/support/as_words.h"
 #include "tests/support/child_process.h"
 #include "tests/support/paths.h"
 #include "tests/support/test_seed.h"

@@ -78,7 +78,7 @@ TEST_F(DicomCommand, AFolderThatGrowsIsAppended) {
     write_time(3);
     const ChildResult appended = isochron({"build", "scan", "-o", "a.isochron", "--append"});
     ASSERT_EQ(appended.status, 0) << appended.err;
-    ASSERT_EQ(isochron({"build", "scan", "-o", "anew.isochron", "--quiet"}).status, 0);
+    ASSERT_EQ(isochron(as_words("build scan -o anew.isochron --quiet")).status, 0);
     const auto said = nlohmann::json::parse(isochron({"info", "a.isochron", "--json"}).out);
     const auto anew = nlohmann::json::parse(isochron({"info", "anew.isochron", "--json"}).out);
     EXPECT_EQ(said.at("times"), (std::vector<double>{1, 2, 3}));
@@ -96,7 +96,7 @@ TEST_F(DicomCommand, AStepThatWasWrittenToIsNotAppendedTo) {
     const std::string before = folder.read("a.isochron");
     write_time(3);
     folder.write("scan/IM8_0", slice(1, 0).replace(slice(1, 0).size() - 2, 1, "!"));
-    expect_failure(isochron({"build", "scan", "-o", "a.isochron", "--append", "--quiet"}), 1,
+    expect_failure(isochron(as_words("build scan -o a.isochron --append --quiet")), 1,
                    "a.isochron");
     EXPECT_EQ(folder.read("a.isochron"), before);
 }

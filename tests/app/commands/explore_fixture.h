@@ -3,6 +3,7 @@
 
 #include "tests/support/session_fixture.h"
 
+#include "tests/support/as_words.h"
 #include "tests/support/eventually.h"
 #include "tests/support/paths.h"
 #include "tests/support/virtual_display.h"
@@ -72,11 +73,11 @@ class ExploreTest : public testing::Test {
         arguments.insert(arguments.end(), more.begin(), more.end());
         const auto before = remembered();
         auto program = std::make_unique<Program>(std::move(arguments));
-        screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron"});
+        screen_.xdotool(as_words("search --sync --onlyvisible --name Isochron"));
         // Before there is a session, Escape and the end of the window give it up.
         test_support::eventually([&] { return remembered() != before || !program->runs(); });
-        screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "mousemove", "--window",
-                         "%1", "200", "200"});
+        screen_.xdotool(
+            as_words("search --name Isochron windowfocus mousemove --window %1 200 200"));
         return program;
     }
 
@@ -99,14 +100,6 @@ class ExploreTest : public testing::Test {
     /// Waits for a frame in which the explorer has seen all input up to now.
     void await_frame() const { screen_.await_frame("Isochron"); }
 
-    /// Clicks, once a frame at most, until a file has this text. @return false if it never does
-    bool clicks_until(const std::string& name, const std::string& text) const {
-        return test_support::eventually([&] {
-            screen_.xdotool({"click", "1"});
-            await_frame();
-            return folder_.read(name).find(text) != std::string::npos;
-        });
-    }
     /// Waits until a file has this text. @return false if it never does
     bool comes(const std::string& name, const std::string& text) const {
         return test_support::eventually(

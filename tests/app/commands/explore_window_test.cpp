@@ -58,7 +58,7 @@ TEST_F(ExploreWindow, WithoutADisplayItSaysSo) {
 TEST_F(ExploreWindow, CopiesTheValueUnderTheCursorAndSavesTheSession) {
     const auto program = explore({"--record", file("walk.jsonl"), "--isovalue", "8", "--no-panel",
                                   "--session", file("kept.isochron-session")});
-    screen_.xdotool({"search", "--name", "Isochron", "mousemove", "--window", "%1", "320", "240"});
+    screen_.xdotool(as_words("search --name Isochron mousemove --window %1 320 240"));
     std::string copied;
     EXPECT_TRUE(test_support::eventually([&] { // the surface is there after some frames
         screen_.xdotool({"key", "ctrl+c"});
@@ -86,7 +86,7 @@ TEST_F(ExploreWindow, CopiesTheValueUnderTheCursorAndSavesTheSession) {
 TEST_F(ExploreWindow, WritesThePictureThatIsSeenBesideThePanel) {
     const auto program = explore_sized(
         {"--isovalue", "8", "--screenshots", folder_.path().string(), "--size", "1000", "600"});
-    screen_.xdotool({"search", "--name", "Isochron", "mousemove", "--window", "%1", "700", "300"});
+    screen_.xdotool(as_words("search --name Isochron mousemove --window %1 700 300"));
     await_frame();
     screen_.xdotool({"key", "p"});
     EXPECT_TRUE(test_support::eventually([&] {
@@ -202,18 +202,18 @@ TEST_F(ExploreWindow, OpensOtherDataFromTheListOfThoseThatWereOpenLately) {
 
 TEST_F(ExploreWindow, WithoutDataItLetsTheUserChooseSome) {
     UserMemory(state_.path() / "isochron").remember(file("sphere.isochron"));
-    const Program program({"explore", "--size", "640", "480", "--seconds", "300"});
+    const Program program(as_words("explore --size 640 480 --seconds 300"));
     wait_for_window("Isochron: open data");
     // The first of those that were open lately; until it is there, nothing is clicked.
     EXPECT_TRUE(is_shown_after("sphere.isochron", [&] {
-        screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "mousemove", "--window",
-                         "%1", "320", "150", "click", "--repeat", "2", "--delay", "40", "1"});
+        screen_.xdotool(as_words("search --name Isochron windowfocus mousemove --window %1 320 150 "
+                                 "click --repeat 2 --delay 40 1"));
     }));
     program.signal(SIGTERM);
     EXPECT_EQ(program.exit_status(), 128 + SIGTERM);
     const Program leaves({"explore", "--size", "640", "480"});
     wait_for_window("Isochron: open data");
-    screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "keydown", "Escape"});
+    screen_.xdotool(as_words("search --name Isochron windowfocus keydown Escape"));
     EXPECT_EQ(leaves.exit_status(), 0);
 }
 
@@ -290,9 +290,9 @@ TEST_F(ExploreWindow, ComesToRestAndIsWokenByAKeyAndBySignals) {
 TEST_F(ExploreWindow, ShowsAgainWhatTheServerHasLost) {
     const auto program = explore({});
     ASSERT_TRUE(test_support::eventually([&] { return is_bar(4); }));
-    screen_.xdotool({"search", "--name", "Isochron", "windowunmap", "--sync"});
+    screen_.xdotool(as_words("search --name Isochron windowunmap --sync"));
     ASSERT_TRUE(test_support::eventually([&] { return !is_bar(4); }));
-    screen_.xdotool({"search", "--name", "Isochron", "windowmap", "--sync"});
+    screen_.xdotool(as_words("search --name Isochron windowmap --sync"));
     EXPECT_TRUE(test_support::eventually([&] { return is_bar(4); }));
     program->signal(SIGTERM);
     EXPECT_EQ(program->exit_status(), 128 + SIGTERM);

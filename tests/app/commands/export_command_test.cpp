@@ -48,7 +48,7 @@ class ExportCommand : public CommandLine {
 
 TEST_F(ExportCommand, EveryFormatHoldsTheSurfacesOfVtk) {
     with_vtk("make");
-    expect_done({"build", "t0.vti", "t1.vti", "--array", "v", "--color", "c", "-o", "a.isochron"});
+    expect_done(as_words("build t0.vti t1.vti --array v --color c -o a.isochron"));
     for (const std::string format : {"ply", "stl", "obj", "vtp", "glb", "glb-animation", "usda"}) {
         const std::string extension = format == "glb-animation" ? "glb" : format;
         std::vector<std::string> all{
@@ -63,7 +63,7 @@ TEST_F(ExportCommand, EveryFormatHoldsTheSurfacesOfVtk) {
 
 TEST_F(ExportCommand, WritesTheActiveCellsAsATable) {
     build();
-    expect_done({"export", "a.isochron", "--isovalue", "0.1", "--steps", "1:3:2", "-o", "c.csv"});
+    expect_done(as_words("export a.isochron --isovalue 0.1 --steps 1:3:2 -o c.csv"));
     for (const std::size_t step : {1, 3}) {
         std::istringstream table(folder.read(fmt::format("c_{:04}.csv", step)));
         std::string line;
@@ -113,10 +113,10 @@ TEST_F(ExportCommand, TheBytesAreTheSameOnOneProcessor) {
 
 TEST_F(ExportCommand, ACroppedSurfaceIsThatOfCroppedData) {
     build();
-    expect_done({"build", "t*.raw", "--dims", "14", "11", "9", "--type", "f32", "--crop",
-                 "1:9,0:7,2:7", "-o", "part.isochron"});
-    const std::vector<std::string> how{"--isovalue", "0.1",       "--steps",     "0",
-                                       "-o",         "whole.obj", "--no-normals"};
+    expect_done(
+        as_words("build t*.raw --dims 14 11 9 --type f32 --crop 1:9,0:7,2:7 -o part.isochron"));
+    const std::vector<std::string> how =
+        as_words("--isovalue 0.1 --steps 0 -o whole.obj --no-normals");
     std::vector<std::string> whole{"export", "a.isochron", "--crop", "1:9,0:7,2:7"};
     std::vector<std::string> part{"export", "part.isochron"};
     whole.insert(whole.end(), how.begin(), how.end());
@@ -213,7 +213,7 @@ TEST_F(ExportCommand, AClippedSurfaceLiesOnOneSideOfItsPlane) {
         EXPECT_LE(at[0] + at[2], 10.3 + 1e-5);
     for (const auto& at : other)
         EXPECT_GE(at[0] + at[2], 10.3 - 1e-5);
-    expect_refused({"--isovalue", "0.1", "-o", "c.obj", "--clip", "0", "0", "0", "0", "0", "0"}, 2,
+    expect_refused(as_words("--isovalue 0.1 -o c.obj --clip 0 0 0 0 0 0"), 2,
                    "--clip 0 0 0 0 0 0: expected a point on the plane and its normal");
 }
 
@@ -238,10 +238,9 @@ TEST_F(ExportCommand, ASimplifiedSurfaceHasFewerTrianglesAndSaysItsError) {
     EXPECT_EQ(fewer.at("vertices").get<int>() - fewer.at("triangles").get<int>() / 2, 2);
     exported("again.ply", {"--simplify", "0.1"});
     EXPECT_EQ(folder.read("again.ply"), folder.read("fewer.ply")) << "the same bytes again";
-    EXPECT_THAT(expect_done({"export", "s.isochron", "--isovalue", "100", "--simplify", "0.1", "-o",
-                             "about.stl"})
-                    .out,
-                HasSubstr("the surface has moved by at most 0."));
+    EXPECT_THAT(
+        expect_done(as_words("export s.isochron --isovalue 100 --simplify 0.1 -o about.stl")).out,
+        HasSubstr("the surface has moved by at most 0."));
     // A distance in another unit than the user had in mind; nothing is left of the surface.
     const ChildResult refused = isochron(
         {"export", "s.isochron", "--isovalue", "100", "--simplify", "1e4", "-o", "none.stl"});
@@ -257,8 +256,8 @@ TEST_F(ExportCommand, ASimplifiedSurfaceHasFewerTrianglesAndSaysItsError) {
 TEST_F(ExportCommand, ASurfaceIsSimplifiedByADistanceInCellsOrInTheUnitOfTheFile) {
     expect_done(build_of("t*.raw", {"--spacing", "0.002", "0.004", "0.008", "--length-unit", "m"}));
     const auto error = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> all{"export", "a.isochron", "--isovalue", "0.1",    "--steps",
-                                     "0",      "-o",         "s.ply",      "--json", "--force"};
+        std::vector<std::string> all =
+            as_words("export a.isochron --isovalue 0.1 --steps 0 -o s.ply --json --force");
         all.insert(all.end(), more.begin(), more.end());
         return nlohmann::json::parse(expect_done(all).out);
     };
@@ -276,15 +275,15 @@ TEST_F(ExportCommand, ASurfaceIsSimplifiedByADistanceInCellsOrInTheUnitOfTheFile
          {"0", "-1", "nan", "inf", "1e999", "0.5cell ", "5miles", "cells"})
         expect_refused({"--isovalue", "0.1", "-o", "w.ply", "--simplify=" + wrong}, 2,
                        "--simplify " + wrong + ": expected a distance above 0");
-    expect_refused({"--isovalue", "0.1", "-o", "w.ply", "--simplify", "1e-12"}, 1,
+    expect_refused(as_words("--isovalue 0.1 -o w.ply --simplify 1e-12"), 1,
                    "step 0: --simplify 1e-12: a file of this precision moves vertices by up to");
 }
 
 /// Whether each format has what the table of the guide says, beside two surfaces of a step.
 TEST_F(ExportCommand, EachFormatCarriesWhatTheGuideSays) {
     with_vtk("make");
-    expect_done({"build", "t0.vti", "t1.vti", "--array", "v", "--color", "c", "--length-unit", "mm",
-                 "--time-unit", "s", "--time-step", "0.5", "-o", "a.isochron"});
+    expect_done(as_words("build t0.vti t1.vti --array v --color c --length-unit mm --time-unit s "
+                         "--time-step 0.5 -o a.isochron"));
     // Unit, time, number of the surface, colors, normals, values: what stands in the file for it.
     const std::map<std::string, std::array<std::string, 6>> signs{
         {"ply",
@@ -348,8 +347,8 @@ TEST_F(ExportCommand, EachFormatCarriesWhatTheGuideSays) {
 TEST_F(ExportCommand, CountsTheCellsThatAreLeftByCuts) {
     build();
     const auto count = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> all{"export", "a.isochron", "--isovalue", "0.1",    "--steps",
-                                     "0",      "-o",         "c.ply",      "--json", "--force"};
+        std::vector<std::string> all =
+            as_words("export a.isochron --isovalue 0.1 --steps 0 -o c.ply --json --force");
         all.insert(all.end(), more.begin(), more.end());
         return nlohmann::json::parse(expect_done(all).out).at("cells").get<std::size_t>();
     };
@@ -371,7 +370,7 @@ TEST_F(ExportCommand, CountsTheCellsThatAreLeftByCuts) {
     const std::size_t clipped = count({"--clip", "6.5", "0", "0", "1", "0", "0"});
     EXPECT_GE(clipped, before(6));
     EXPECT_LE(clipped, before(7));
-    EXPECT_EQ(count({"--crop", "2:9,1:7,2:6", "--clip", "9", "0", "0", "1", "0", "0"}), within);
+    EXPECT_EQ(count(as_words("--crop 2:9,1:7,2:6 --clip 9 0 0 1 0 0")), within);
 }
 
 TEST_F(ExportCommand, AQuantizedSurfaceIsWhereTheOtherOneIs) {
@@ -384,8 +383,8 @@ TEST_F(ExportCommand, AQuantizedSurfaceIsWhereTheOtherOneIs) {
         return nlohmann::json::parse(bytes.substr(20, size));
     };
     for (const bool quantized : {false, true}) {
-        std::vector<std::string> all{"export",  "a.isochron", "--isovalue", "0.1",
-                                     "--steps", "0",          "-o",         "plain.glb"};
+        std::vector<std::string> all =
+            as_words("export a.isochron --isovalue 0.1 --steps 0 -o plain.glb");
         if (quantized) {
             all.back() = "small.glb";
             all.emplace_back("--quantize");
@@ -416,8 +415,8 @@ TEST_F(ExportCommand, AQuantizedSurfaceIsWhereTheOtherOneIs) {
     }
     EXPECT_LT(small_bytes.size(), 0.75 * static_cast<double>(plain_bytes.size()));
     expect_refused({"--isovalue", "0", "-o", "q.ply", "--quantize"}, 2, "is for glb");
-    expect_refused({"--isovalue", "0", "-o", "q.csv", "--crop", "0:1,0:1,0:1"}, 2, "holds cells");
-    expect_refused({"--isovalue", "0", "-o", "q.ply", "--crop", "0:1,0:1"}, 2, "X0:X1,Y0:Y1,Z0:Z1");
+    expect_refused(as_words("--isovalue 0 -o q.csv --crop 0:1,0:1,0:1"), 2, "holds cells");
+    expect_refused(as_words("--isovalue 0 -o q.ply --crop 0:1,0:1"), 2, "X0:X1,Y0:Y1,Z0:Z1");
 }
 
 TEST_F(ExportCommand, FarFromTheOriginPlacesKeepTheirShape) {
@@ -434,8 +433,8 @@ TEST_F(ExportCommand, FarFromTheOriginPlacesKeepTheirShape) {
         std::memcpy(&x, bytes.data() + at, sizeof x);
         return double(x);
     };
-    const std::vector<std::string> command{"export",  "a.isochron", "--isovalue", "0.1",
-                                           "--steps", "0",          "-o"};
+    const std::vector<std::string> command =
+        as_words("export a.isochron --isovalue 0.1 --steps 0 -o");
     const auto with = [&](const std::vector<std::string>& more) {
         std::vector<std::string> all = command;
         all.insert(all.end(), more.begin(), more.end());
@@ -476,9 +475,8 @@ TEST_F(ExportCommand, WhatSinglePrecisionMovesIsSaidWhereItIsMuchOfACell) {
     for (const auto& [spacing, said] : {std::pair{"300000", true}, {"3000", true}, {"3", false}}) {
         expect_done(build_of(
             "t*.raw", {"--spacing", spacing, spacing, "1", "--length-unit", "m", "--force"}));
-        const std::vector<std::string> command{"export",       "a.isochron", "--isovalue",
-                                               "0.1",          "--steps",    "0",
-                                               "--no-normals", "--force",    "-o"};
+        const std::vector<std::string> command =
+            as_words("export a.isochron --isovalue 0.1 --steps 0 --no-normals --force -o");
         const auto with = [&](const std::vector<std::string>& more) {
             std::vector<std::string> all = command;
             all.insert(all.end(), more.begin(), more.end());
@@ -519,10 +517,8 @@ TEST_F(ExportCommand, WhereNoCellHasTheIsovalueFilesAreEmptyAndThatIsSaid) {
         EXPECT_THAT(result.out,
                     HasSubstr(format == "csv" ? "0 cells" : "0 cells, 0 vertices, 0 triangles"));
     }
-    const auto json =
-        nlohmann::json::parse(expect_done({"export", "a.isochron", "--isovalue", "5", "--steps",
-                                           "0:1", "-o", "none.ply", "--json"})
-                                  .out);
+    const auto json = nlohmann::json::parse(
+        expect_done(as_words("export a.isochron --isovalue 5 --steps 0:1 -o none.ply --json")).out);
     EXPECT_EQ(json.at("files"), nlohmann::json({"none_0000.ply", "none_0001.ply"}));
     EXPECT_EQ(json.at("empty_steps"), nlohmann::json({0, 1}));
 }
@@ -556,12 +552,12 @@ TEST_F(ExportCommand, WhatItCannotDoItRefusesInALine) {
     };
     for (const auto& [arguments, said] : wrong)
         expect_refused(arguments, said == "to color by" ? 1 : 2, said);
-    expect_refused({"--isovalue", "0", "-o", "a.ply", "--array", "none"}, 1, "no array none");
+    expect_refused(as_words("--isovalue 0 -o a.ply --array none"), 1, "no array none");
     std::vector<std::string> many{"-o", "a.ply"};
     for (int i = 0; i < 9; ++i)
         many.insert(many.end(), {"--isovalue", std::to_string(i)});
     expect_refused(many, 2, "--isovalue: expected at most 8 of them, got 9");
-    expect_refused({"--isovalue", "0.1", "-o", "a.ply", "--simplify", "1e-9"}, 1,
+    expect_refused(as_words("--isovalue 0.1 -o a.ply --simplify 1e-9"), 1,
                    "a file of this precision moves vertices by up to");
 }
 

@@ -1,4 +1,5 @@
 // A figure has its words as text, in the sizes that its file says, and is made again.
+#include "tests/support/as_words.h"
 #include "tests/support/session_fixture.h"
 
 #include "index/indexing/index_build.h"
@@ -150,10 +151,10 @@ TEST_F(FigureCommand, ShowsTheFirstArrayWithASurfaceAndOfEachArrayItsOwnIsovalue
     const std::string words = tool("pdftotext -raw f.pdf -").out;
     EXPECT_THAT(words, testing::ContainsRegex("heat, isovalue 3[01][0-9]"));
     EXPECT_THAT(words, testing::ContainsRegex("load, isovalue 90[01][0-9]"));
-    EXPECT_THAT(isochron({"query", "run.isochron", "--isovalue", "0.5", "--step", "0"}).err,
+    EXPECT_THAT(isochron(as_words("query run.isochron --isovalue 0.5 --step 0")).err,
                 HasSubstr("isovalue 0.5 has no surface: density is 1.2 everywhere"));
     // A film begins with that array, too.
-    ASSERT_EQ(isochron({"movie", "run.isochron", "--film", "turn", "-o", "turn.jsonl"}).status, 0);
+    ASSERT_EQ(isochron(as_words("movie run.isochron --film turn -o turn.jsonl")).status, 0);
     EXPECT_THAT(folder_.read("turn.jsonl"), HasSubstr("\"array\":\"heat\""));
 }
 

@@ -30,9 +30,9 @@ TEST_F(Generate, MakesWhatItsOptionsSay) {
 }
 
 TEST_F(Generate, TellsAsTheProgramDoesWhatIsWrong) {
-    EXPECT_EQ(isochron({"generate", "sphere", "--out=-d", "--steps", "2"}).out,
+    EXPECT_EQ(isochron(as_words("generate sphere --out=-d --steps 2")).out,
               "-d/sphere.pvd: 2 steps\n");
-    expect_failure(isochron({"generate", "sphere", "--out=-d", "--steps", "3"}), 1,
+    expect_failure(isochron(as_words("generate sphere --out=-d --steps 3")), 1,
                    "-d/sphere.pvd: is another series than ");
     expect_failure(isochron({"generate", "sphere"}), 2,
                    "--output is required (see isochron generate sphere --help)");
@@ -43,8 +43,8 @@ TEST_F(Generate, TellsAsTheProgramDoesWhatIsWrong) {
 }
 
 TEST_F(Generate, IsCanceledAsTheProgramIs) {
-    const std::vector<std::string> endless{"generate", "fourier", "-o",      "d",
-                                           "--size",   "64",      "--steps", "100000"};
+    const std::vector<std::string> endless =
+        as_words("generate fourier -o d --size 64 --steps 100000");
     const ChildResult result = isochron(endless, {.interrupt_after = " ...\n"});
     EXPECT_EQ(result.status, 130);
     EXPECT_THAT(result.err, EndsWith("isochron: canceled\n"));

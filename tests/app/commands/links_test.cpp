@@ -60,24 +60,31 @@ class Links : public CommandLine {
     static constexpr std::size_t kEdge = 216; // a step of which chunks are read that are needed
     Links() {
         setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+        static const std::string made = make(); // once, as each test reads it alone
+        bytes = made;
+        folder.write("a.isochron", bytes);
+        local = ids_of("a.isochron");
+        EXPECT_GT(local.size(), 4000u);
+    }
+
+    /// @return the index, whose file of values is gone
+    std::string make() {
         std::string values;
         for (std::size_t z = 0; z < kEdge; ++z)
-            for (std::size_t y = 0; y < kEdge; ++y)
+            for (std::size_t y = 0; y < kEdge; ++y) {
+                const double wave = 60 * std::sin(0.07 * double(y)) * std::cos(0.06 * double(z));
                 for (std::size_t x = 0; x < kEdge; ++x)
-                    values += static_cast<char>(128 +
-                                                60 * std::sin(0.05 * double(x)) *
-                                                    std::sin(0.07 * double(y)) *
-                                                    std::cos(0.06 * double(z)) +
+                    values += static_cast<char>(128 + wave * std::sin(0.05 * double(x)) +
                                                 static_cast<double>((x * 7 + y * 5 + z * 3) % 11));
+            }
         folder.write("big.raw", values);
         const std::string n = std::to_string(kEdge);
         EXPECT_EQ(
             isochron({"build", "big.raw", "--dims", n, n, n, "--type", "u8", "-o", "a.isochron"})
                 .status,
             0);
-        bytes = folder.read("a.isochron");
-        local = ids_of("a.isochron");
-        EXPECT_GT(local.size(), 4000u);
+        fs::remove(folder.path() / "big.raw");
+        return folder.read("a.isochron");
     }
 
     std::vector<std::string> query_of(const std::string& index) {

@@ -36,7 +36,7 @@ TEST_F(MeasureCommand, AgreesWithVtkAndScipy) {
 
 TEST_F(MeasureCommand, PrintsARowForEachStepAndIsovalue) {
     build();
-    const ChildResult json = measure({"--isovalue", "0.1", "--isovalue", "0.3", "--json"});
+    const ChildResult json = measure(as_words("--isovalue 0.1 --isovalue 0.3 --json"));
     ASSERT_EQ(json.status, 0) << json.err;
     const auto found = nlohmann::json::parse(json.out);
     EXPECT_EQ(found.at("units").at("area"), "mm^2");
@@ -52,10 +52,10 @@ TEST_F(MeasureCommand, PrintsARowForEachStepAndIsovalue) {
                     double((kX - 1) * (kY - 1) * (kZ - 1)), 1e-9);
         EXPECT_FALSE(rows[i].contains("mean"));
     }
-    const ChildResult table = measure({"--isovalue", "0.1", "--steps", "3", "--measure", "area"});
+    const ChildResult table = measure(as_words("--isovalue 0.1 --steps 3 --measure area"));
     EXPECT_THAT(table.out, HasSubstr("area [mm^2]"));
-    const ChildResult csv = measure({"--isovalue", "0.1", "--steps", "1:4:3", "--measure", "area",
-                                     "--measure", "pieces", "--csv"});
+    const ChildResult csv =
+        measure(as_words("--isovalue 0.1 --steps 1:4:3 --measure area --measure pieces --csv"));
     std::istringstream lines(csv.out);
     std::string line;
     std::getline(lines, line);
@@ -80,8 +80,7 @@ TEST_F(MeasureCommand, MeasuresBothSidesOfAPlane) {
                     whole.at(name).get<double>(), 1e-9 * whole.at(name).get<double>())
             << name;
     }
-    const ChildResult wrong =
-        measure({"--isovalue", "0.1", "--clip", "3", "3", "3", "0", "0", "0"});
+    const ChildResult wrong = measure(as_words("--isovalue 0.1 --clip 3 3 3 0 0 0"));
     EXPECT_NE(wrong.status, 0);
     EXPECT_THAT(wrong.err, HasSubstr("--clip 3 3 3 0 0 0: expected a point on the plane"));
 }

@@ -1,4 +1,5 @@
 // A movie has exactly the frames that follow from its rate and its recording's length.
+#include "tests/support/as_words.h"
 #include "tests/support/session_fixture.h"
 
 #include "app/loop/replay.h"
@@ -167,7 +168,7 @@ TEST_F(MovieTest, ARecordingOfASecondHasTheFramesOfASecond) {
         0);
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "frames_0.5_center/frame_00020.png"));
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "frames_0.5_center/frame_00021.png"));
-    EXPECT_EQ(program({"reproduce", "frames_0.5_center/frame_00020.png"}).status, 0);
+    EXPECT_EQ(program(as_words("reproduce frames_0.5_center/frame_00020.png")).status, 0);
     // It says what it shows, without a path of this machine.
     const PictureNote note = note_from(note_text_in(movie));
     EXPECT_EQ(note.data, "sphere.isochron");
@@ -191,9 +192,8 @@ TEST_F(MovieTest, GoesOnAfterAKillAndHasTheSameBytes) {
         folder_.write("ffmpeg", "#!/bin/sh\nfor last; do :; done\n" + script);
     };
     const std::string whole = "cat > \"$last\"\n";
-    const std::vector<std::string> film{
-        "movie", "sphere.isochron", "--film", "both", "--length", "1",    "--rate",
-        "8",     "--size",          "64",     "48",   "-o",       "a.mp4"};
+    const std::vector<std::string> film =
+        as_words("movie sphere.isochron --film both --length 1 --rate 8 --size 64 48 -o a.mp4");
     const auto make = [&](std::vector<std::string> words, const std::string& more = {}) {
         if (!more.empty())
             words.push_back(more);
@@ -267,7 +267,7 @@ TEST_F(MovieTest, WhatAPanoramaCannotBeIsSaidInALine) {
              {{"--emulate"}, "--emulate, --stereo and --eyes go without it"},
              {{"--stereo", "mono"}, "--emulate, --stereo and --eyes go without it"},
              {{"--eyes", "each"}, "--emulate, --stereo and --eyes go without it"}}) {
-        std::vector<std::string> all{"movie", "sphere.isochron", "--panorama", "-o", "p.mp4"};
+        std::vector<std::string> all = as_words("movie sphere.isochron --panorama -o p.mp4");
         all.insert(all.end(), more.begin(), more.end());
         const ChildResult refused =
             run_child(test_support::binary_root() + "/isochron", all, folder_.path());
@@ -280,8 +280,7 @@ TEST_F(MovieTest, WhatAPanoramaCannotBeIsSaidInALine) {
 TEST_F(MovieTest, OfAnIndexHasEveryStepOnceAsTheExplorerShowsItFirst) {
     build_sphere(folder_.path());
     const auto movie = [&](std::vector<std::string> more) {
-        std::vector<std::string> all{"movie", "sphere.isochron", "--size", "64",
-                                     "48",    "--rate",          "0.5"};
+        std::vector<std::string> all = as_words("movie sphere.isochron --size 64 48 --rate 0.5");
         all.insert(all.end(), more.begin(), more.end());
         return run_child(test_support::binary_root() + "/isochron", all, folder_.path());
     };
@@ -344,9 +343,7 @@ TEST_F(MovieTest, OfKeysGoesThroughThemAndIsTheSameTwiceAndAsARecording) {
                 testing::HasSubstr("/a/: 2.5 s, 11 frames at 4 per second, 64 x 48 pixels"));
     ASSERT_EQ(movie("b/", {"--keys", "keys.json"}).status, 0);
     ASSERT_EQ(movie("film.jsonl", {"--keys", "keys.json"}).status, 0);
-    ASSERT_EQ(
-        program({"movie", "film.jsonl", "-o", "c/", "--rate", "4", "--size", "64", "48"}).status,
-        0);
+    ASSERT_EQ(program(as_words("movie film.jsonl -o c/ --rate 4 --size 64 48")).status, 0);
     std::set<std::string> pictures;
     const auto frame = [&](const char* name, int number) {
         return fmt::format("{}/frame_{:05}.png", name, number);

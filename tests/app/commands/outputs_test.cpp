@@ -67,8 +67,7 @@ const TestFolder& prepared() {
         fs::permissions(folder.path() / "ffmpeg", fs::perms::owner_all);
         fs::create_directory(folder.path() / "elsewhere");
         for (const std::vector<std::string>& command :
-             {std::vector<std::string>{"build", "t0.raw", "t1.raw", "t2.raw", "--dims", "8", "8",
-                                       "8", "--type", "f32", "-o", "a.isochron"},
+             {as_words("build t0.raw t1.raw t2.raw --dims 8 8 8 --type f32 -o a.isochron"),
               {"replay", "walk.jsonl", "--every", "2", "--out", "shown"}})
             EXPECT_EQ(run_in(folder.path(), command).status, 0);
         return true;
@@ -278,7 +277,7 @@ TEST_F(Outputs, DoNotReplaceFilesThatAHeaderNames) {
         {"query", "v.isochron", "--isovalue", "40", "--step", "0", "--ids", raw, "--force"},
         "elsewhere/v.raw: is a source of v.isochron, it would be overwritten",
         "expected another name");
-    expect_done({"query", "v.isochron", "--isovalue", "40", "--step", "0", "--ids", "ids.bin"});
+    expect_done(as_words("query v.isochron --isovalue 40 --step 0 --ids ids.bin"));
 }
 
 TEST_F(Outputs, DoNotReplaceFilesInAFolderThatIsRead) {
@@ -298,15 +297,13 @@ TEST_F(Outputs, DoNotReplaceFilesInAFolderThatIsRead) {
     expect_done(with(build, "z.isochron"));
     for (const bool force : {false, true})
         expect_refused(
-            with({"query", "z.isochron", "--isovalue", "30", "--step", "0", "--ids", "OUT"}, part,
-                 force),
+            with(as_words("query z.isochron --isovalue 30 --step 0 --ids OUT"), part, force),
             "it would be overwritten", "expected another name");
     // A new name there is none of its files, and an index beside a series is no part of it.
     fs::create_directory(folder_.path() / "series");
     for (const char* name : {"t0.raw", "t1.raw"})
         fs::copy_file(folder_.path() / name, folder_.path() / "series" / name);
-    const std::vector<std::string> whole{"build", "series", "--dims", "8",  "8",
-                                         "8",     "--type", "f32",    "-o", "OUT"};
+    const std::vector<std::string> whole = as_words("build series --dims 8 8 8 --type f32 -o OUT");
     for (int twice = 0; twice < 2; ++twice)
         expect_done(with(whole, "series/s.isochron"));
     expect_refused(with(whole, "series/t1.raw", true), "it would be overwritten",
@@ -314,25 +311,24 @@ TEST_F(Outputs, DoNotReplaceFilesInAFolderThatIsRead) {
 }
 
 TEST_F(Outputs, OfOneCommandHaveNamesOfTheirOwn) {
-    expect_refused({"change", "a.isochron", "--isovalue", "50", "--step", "0", "--to-step", "1",
-                    "--added", "same.bin", "--removed", "./same.bin"},
+    expect_refused(as_words("change a.isochron --isovalue 50 --step 0 --to-step 1 --added same.bin "
+                            "--removed ./same.bin"),
                    "two outputs have this name", "expected two names");
 }
 
 TEST_F(Outputs, AnIndexBehindALinkFindsTheSourcesThatItRefersTo) {
     fs::create_symlink("elsewhere/r.isochron", folder_.path() / "r.isochron");
-    expect_done({"build", "t?.raw", "--dims", "8", "8", "8", "--type", "f32", "--refer", "-o",
-                 "r.isochron"});
+    expect_done(as_words("build t?.raw --dims 8 8 8 --type f32 --refer -o r.isochron"));
     for (const char* name : {"r.isochron", "elsewhere/r.isochron"})
         expect_done({"verify", name});
-    expect_refused({"query", "elsewhere/r.isochron", "--isovalue", "45", "--step", "0", "--ids",
-                    "t1.raw", "--force"},
-                   "t1.raw: is a source of elsewhere/r.isochron", "expected another name");
+    expect_refused(
+        as_words("query elsewhere/r.isochron --isovalue 45 --step 0 --ids t1.raw --force"),
+        "t1.raw: is a source of elsewhere/r.isochron", "expected another name");
 }
 
 TEST_F(Outputs, AreRecognizedByWhatIsInThem) {
-    const std::vector<std::string> query{"query",  "a.isochron", "--isovalue", "50",
-                                         "--step", "1",          "--ids",      "OUT"};
+    const std::vector<std::string> query =
+        as_words("query a.isochron --isovalue 50 --step 1 --ids OUT");
     const auto ids = [](std::vector<std::uint32_t> all) {
         return std::string(reinterpret_cast<const char*>(all.data()), all.size() * 4);
     };
@@ -350,7 +346,7 @@ TEST_F(Outputs, AreRecognizedByWhatIsInThem) {
     expect_refused(with(query, "walk.jsonl"), "but a recording", "--force replaces it");
     expect_refused(with(query, "shown/frame_00000.png"), "but a picture of this program",
                    "--force replaces it");
-    const std::vector<std::string> import{"config", "import", "cave.pvx", "-o", "cave.toml"};
+    const std::vector<std::string> import = as_words("config import cave.pvx -o cave.toml");
     expect_done(import);
     folder_.write("cave.toml", folder_.read("cave.toml") + "# my tracker\n");
     expect_refused(import, "cave.toml: exists and is not the same configuration",

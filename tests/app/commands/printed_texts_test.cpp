@@ -186,7 +186,7 @@ TEST_F(PrintedTexts, OfConfigurationsAndRecordingsCannotCommandTheTerminal) {
         harmless({"explore", "--check-config", file});
     harmless({"explore", "--check-config", "k.toml"}, 1);
     harmless({"explore", "--check-config", "v.toml"}, 1);
-    harmless({"explore", "--list-devices", "--config", "d.toml"});
+    harmless(as_words("explore --list-devices --config d.toml"));
     for (const char* file : {"r.jsonl", "f.json"}) {
         harmless({"table", file});
         harmless({"table", file, "--json"});

@@ -1,5 +1,6 @@
 // A picture that the program has written is drawn again from its note, with the same bytes.
 #include "tests/app/explore/small_cave.h"
+#include "tests/support/as_words.h"
 #include "tests/support/child_process.h"
 #include "tests/support/index_repair.h"
 #include "tests/support/session_fixture.h"
@@ -62,7 +63,7 @@ class ReproduceTest : public testing::Test {
 
     std::vector<std::string> pictures(const std::vector<std::string>& more) {
         std::filesystem::remove_all(folder_.path() / "out");
-        std::vector<std::string> arguments{"replay", "walk.jsonl", "--stamps", "--out", "out"};
+        std::vector<std::string> arguments = as_words("replay walk.jsonl --stamps --out out");
         arguments.insert(arguments.end(), more.begin(), more.end());
         const ChildResult result = isochron(arguments);
         EXPECT_EQ(result.status, 0) << result.err;
@@ -114,8 +115,8 @@ TEST_F(ReproduceTest, EveryFootprintAndStereoModeIsTheSame) {
     expect_same({}, 3);
     expect_same({"--quality", "fast"}, 3);
     expect_same({"--quality", "fast", "--shape", "voxel"}, 3);
-    expect_same({"--footprint", "gaussian", "--stereo", "anaglyph_red_cyan"}, 3);
-    expect_same({"--stereo", "checkerboard", "--size", "80", "70", "--ray"}, 3);
+    expect_same(as_words("--footprint gaussian --stereo anaglyph_red_cyan"), 3);
+    expect_same(as_words("--stereo checkerboard --size 80 70 --ray"), 3);
     expect_same({"--caption"}, 3);
 }
 

@@ -3,6 +3,7 @@
 #include "app/indexing/file_patterns.h"
 
 #include "index/error.h"
+#include "tests/support/as_words.h"
 #include "tests/support/child_process.h"
 #include "tests/support/paths.h"
 
@@ -18,7 +19,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 TEST(PathWithin, IsTakenOffTheName) {
-    std::vector<std::string> names{"run.h5:/fields/rho", "b.h5:/fields/rho", "c.h5"};
+    std::vector<std::string> names = as_words("run.h5:/fields/rho b.h5:/fields/rho c.h5");
     EXPECT_EQ(take_path_within(names), "/fields/rho");
     EXPECT_EQ(names, (std::vector<std::string>{"run.h5", "b.h5", "c.h5"}));
     EXPECT_EQ(take_path_within(names), std::nullopt);
@@ -113,11 +114,11 @@ TEST_F(SourceInfo, SaysWhereNumbersAreMissing) {
 TEST_F(SourceInfo, SaysWhatFilesAre) {
     folder_.write("t1.raw", std::string(60, '\x05'));
     folder_.write("t2.raw", std::string(60, '\x06'));
-    const ChildResult text = info({"t*.raw", "--dims", "5", "4", "3", "--type", "u8"});
+    const ChildResult text = info(as_words("t*.raw --dims 5 4 3 --type u8"));
     EXPECT_EQ(text.status, 0) << text.err;
     EXPECT_THAT(text.out, HasSubstr("vertices      5 x 4 x 3\n"));
     EXPECT_THAT(text.out, HasSubstr("values        5 to 5 in the first step\n"));
-    const ChildResult json = info({"t*.raw", "--dims", "5", "4", "3", "--type", "u8", "--json"});
+    const ChildResult json = info(as_words("t*.raw --dims 5 4 3 --type u8 --json"));
     const auto said = nlohmann::json::parse(json.out);
     EXPECT_EQ(said["steps"], 2);
     EXPECT_EQ(said["vertices"], (std::vector<int>{5, 4, 3}));
@@ -139,7 +140,7 @@ TEST_F(SourceInfo, RefusesInOneLine) {
     EXPECT_EQ(missing.status, 1);
     EXPECT_EQ(std::ranges::count(missing.err, '\n'), 1);
     folder_.write("t1.raw", std::string(60, '\x05'));
-    EXPECT_EQ(info({"t1.raw", "--dims", "5", "4", "3", "--type", "u8", "--tree"}).status, 2);
+    EXPECT_EQ(info(as_words("t1.raw --dims 5 4 3 --type u8 --tree")).status, 2);
 }
 
 } // namespace

@@ -52,10 +52,6 @@ TEST(CheckConfig, EveryShippedConfigurationIsFoundByNameAndNothingIsWrongWithIt)
                 ElementsAre("cave4", "desk", "desktop", "headless", "hmd", "powerwall"));
 }
 
-TEST(CheckConfig, ASoundWindowHasNoProblems) {
-    EXPECT_THAT(lines_of(window_with(kSquare)), IsEmpty());
-}
-
 TEST(CheckConfig, ScreensThatAreSkewedMirroredOrInMillimetersAreNamedWithFileLineAndKey) {
     EXPECT_THAT(lines_of(window_with("lower_left = [-1, 1, -1]\nupper_left = [-0.5, 3, -1]\n"
                                      "upper_right = [1.56, 3, -1]\n")),
@@ -118,80 +114,6 @@ TEST(CheckConfig, FramesOfTurnedMonitorsAreNoGap) {
     EXPECT_THAT(lines_of(monitor("left", -0.6f) + monitor("right", 0.05f)), IsEmpty());
     EXPECT_THAT(lines_of(monitor("left", -0.6f) + monitor("right", 0.08f)),
                 ElementsAre(HasSubstr("a corner is 80 mm from one of window left")));
-}
-
-TEST(CheckConfig, WhatTwoCannotShareIsWrong) {
-    EXPECT_THAT(lines_of("[[windows]]\nsize = [1000, 1000]\n"
-                         "[[windows.viewports]]\nname = \"a\"\n"
-                         "[windows.viewports.projection]\nfit_aspect = true\n"
-                         "[[windows.viewports]]\nname = \"b\"\nposition = [0.5, 0.5]\n"
-                         "size = [0.5, 0.5]\n"
-                         "[windows.viewports.projection]\nfit_aspect = true\n"),
-                ElementsAre("lab.toml:11: windows.viewports: b of window window overlaps another "
-                            "of the window's viewports by 500 x 500 pixels"));
-    EXPECT_THAT(lines_of("[[windows]]\nfullscreen = true\nmonitor = 0\n[[windows]]\nfullscreen = "
-                         "true\nmonitor = 0\n"),
-                ElementsAre("lab.toml:4: windows.monitor: window window 2 covers monitor 0, as "
-                            "window window does"));
-    EXPECT_THAT(lines_of("[[viewers]]\nname = \"a\"\n[[viewers]]\nname = \"b\"\n"),
-                ElementsAre("lab.toml:3: warning: viewers: no viewport is for viewer b",
-                            "lab.toml:3: viewers.head: device head tracks viewer a and viewer b"));
-    EXPECT_THAT(lines_of("[rendering]\nnear = 5\nfar = 2\n"),
-                testing::Contains(HasSubstr("rendering.near: it is not nearer than")));
-}
-
-TEST(CheckConfig, WallsInOnePlaceAreAPairForTwoEyesOrAMistake) {
-    const auto pair = [](const std::string& first, const std::string& second) {
-        return lines_of(window_with(kSquare, first) +
-                        "[[windows]]\nname = \"twin\"\nsize = "
-                        "[1000, 1000]\n" +
-                        second + "[[windows.viewports]]\n[windows.viewports.projection]\n" +
-                        kSquare);
-    };
-    const std::string left = "stereo = \"left\"\n", right = "stereo = \"right\"\n";
-    EXPECT_THAT(pair(left, right), IsEmpty());
-    EXPECT_THAT(pair(left, left),
-                ElementsAre("lab.toml:15: windows.stereo: window west and window twin have the "
-                            "same corners, and both show the left eye"));
-    EXPECT_THAT(pair("", ""), ElementsAre(HasSubstr("warning: windows.viewports.projection: window "
-                                                    "twin has the same corners as window west")));
-}
-
-TEST(CheckConfig, AFloorThatLiesTheWrongWayRoundIsWarnedOf) {
-    EXPECT_THAT(lines_of(window_with("lower_left = [1, 0, -1]\nupper_left = [1, 0, 1]\n"
-                                     "upper_right = [-1, 0, 1]\n")),
-                ElementsAre(HasSubstr("upper edge is at the back")));
-    EXPECT_THAT(lines_of(window_with("lower_left = [-1, 0, 1]\nupper_left = [-1, 0, -1]\n"
-                                     "upper_right = [1, 0, -1]\n")),
-                IsEmpty());
-}
-
-TEST(CheckConfig, PlacedWindowsOnTopOfEachOtherAreWarnedOf) {
-    const auto placed = [](int x) {
-        return lines_of(fmt::format("[[windows]]\nsize = [800, 600]\nposition = [0, 0]\n"
-                                    "[[windows]]\nsize = [800, 600]\nposition = [{}, 0]\n",
-                                    x));
-    };
-    EXPECT_THAT(placed(700),
-                testing::Contains("lab.toml:4: warning: windows.position: window window 2 covers "
-                                  "100 x 600 pixels of window window"));
-    EXPECT_THAT(placed(800), testing::Not(testing::Contains(HasSubstr("windows.position"))));
-}
-
-TEST(CheckConfig, DevicesThatCannotBeAreNamed) {
-    EXPECT_THAT(lines_of("[viewer]\nhead = \"hat\"\n[dtrack]\nport = 5000\n"
-                         "[[dtrack.devices]]\nname = \"cap\"\nbody = 0\n"),
-                ElementsAre("lab.toml:1: viewers.head: no tracker provides device hat, which "
-                            "tracks viewer viewer"));
-    EXPECT_THAT(lines_of("[dtrack]\nport = 5000\n[[dtrack.devices]]\nname = \"head\"\nbody = 0\n"
-                         "[[dtrack.devices]]\nname = \"cap\"\nbody = 0\n"),
-                ElementsAre("lab.toml:1: warning: dtrack.devices: head and cap are both body 0 of "
-                            "127.0.0.1:5000"));
-    EXPECT_THAT(lines_of("[[dtrack]]\nport = 5000\n[[dtrack.devices]]\nname = \"head\"\nbody = 0\n"
-                         "[[dtrack]]\naddress = \"0.0.0.0\"\nport = 5000\n[[dtrack.devices]]\nname "
-                         "= \"wand\"\nbody = 1\n"),
-                ElementsAre("lab.toml:6: dtrack.port: 0.0.0.0:5000 is the dtrack tracker's of line "
-                            "1 already"));
 }
 
 TEST(CheckConfig, TheDescriptionHoldsEveryPartAndItsMeasures) {

@@ -81,7 +81,7 @@ TEST(ConfigFuzz, ADamagedConfigurationIsReadOrRefusedInOneLine) {
     Damage damage(test_seed());
     int read = 0, refused = 0;
     for (const std::string& name : shipped_config_names())
-        for (int i = 0; i < 1500; ++i) {
+        for (int i = 0; i < tries(1500); ++i) {
             const std::string text = damage.of(*shipped_config(name));
             try {
                 const Config config = parse_config(text, "damaged.toml");
@@ -100,8 +100,8 @@ TEST(ConfigFuzz, ADamagedConfigurationIsReadOrRefusedInOneLine) {
                 ++refused;
             }
         }
-    EXPECT_GT(read, 500) << "nearly nothing was accepted: is the damage too great?";
-    EXPECT_GT(refused, 500);
+    EXPECT_GT(read, tries(500)) << "nearly nothing was accepted: is the damage too great?";
+    EXPECT_GT(refused, tries(500));
 }
 
 TEST(ConfigFuzz, ADamagedPvxFileIsReadOrRefusedInOneLine) {
@@ -116,7 +116,7 @@ TEST(ConfigFuzz, ADamagedPvxFileIsReadOrRefusedInOneLine) {
     Damage damage(test_seed());
     const test_support::TestFolder folder;
     int read = 0, refused = 0;
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < tries(2000); ++i) {
         const auto file = folder.write("damaged.pvx", damage.of(whole));
         try {
             read_pvx(file, {});
@@ -126,8 +126,8 @@ TEST(ConfigFuzz, ADamagedPvxFileIsReadOrRefusedInOneLine) {
             ++refused;
         }
     }
-    EXPECT_GT(read, 100);
-    EXPECT_GT(refused, 100);
+    EXPECT_GT(read, tries(100));
+    EXPECT_GT(refused, tries(100));
 }
 
 } // namespace

@@ -399,8 +399,10 @@ TEST_F(ClusterJobTest, AStillPictureEndsExactOnAllWallsInTheSameFrameThoughNoFra
         {"search", "--sync", "--onlyvisible", "--name", "Isochron.*left", "windowfocus"});
     screen.xdotool({"key", "p"}); // written once the picture is final
     for (const char* wall : {"front", "left", "right", "floor"})
-        while (!std::filesystem::exists(folder_.path() / fmt::format("isochron_0001_{}.png", wall)))
-            screen.xdotool({"getmouselocation"}); // the test's limit ends a hang
+        EXPECT_TRUE(test_support::eventually([&] {
+            return std::filesystem::exists(folder_.path() /
+                                           fmt::format("isochron_0001_{}.png", wall));
+        }));
     screen.close_window("Isochron: sphere.isochron: floor");
     const ChildResult result = ended.get();
     EXPECT_EQ(result.status, 0) << result.err;

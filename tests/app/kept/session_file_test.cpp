@@ -487,48 +487,6 @@ TEST(SessionClaim, TwoProgramsHaveAFileEachUntilTheyEnd) {
     EXPECT_TRUE(std::filesystem::is_empty(wanted.parent_path())) << "no locks are left";
 }
 
-TEST(SessionFile, ARestoredSessionShowsTheSamePixels) {
-    TestFolder folder;
-    const auto file = build_sphere(folder.path(), kSteps);
-    const auto context = stereo::make_context(stereo::ContextKind::egl, {.size = {256, 128}});
-    const auto path = folder.path() / "a.isochron-session";
-    Config config = small_config();
-    config.start.quality = interaction::QualityMode::quality;
-    const auto settled = [](Session& session) {
-        for (int frame = 1; frame < 3; ++frame)
-            session.frame(head_at_rest(frame / 60.0), {}, Waiting::for_cells);
-        return session.outputs().display().read_window().rgba;
-    };
-    std::vector<std::uint8_t> left;
-    {
-        Session session(config, file, *context);
-        Commands commands;
-        commands.isosurfaces = {
-            {{5.5, {0.2f, 0.7f, 0.9f}, 0.4f}, {9.25, {0.9f, 0.3f, 0.1f}, 1.0f}}};
-        commands.instant = index::Instant(4);
-        commands.room_from_physical = interaction::Similarity{
-            {-0.31, 0.87, -1.9}, glm::normalize(glm::dquat(0.9, 0.1, 0.3, -0.2)), 0.041};
-        commands.clip = interaction::ClipPlane{true, {16, 15, 15}, {1, 0, 0}};
-        commands.rulers = interaction::Rulers{
-            .list = {{.name = "1", .places = {{10, 10, 10}, {20, 20, 12}}},
-                     {.name = "2", .places = {{1, 1, 1}}, .angle = true, .shown = false}},
-            .picked = 1,
-            .angle = true};
-        commands.mark = interaction::Mark{interaction::MarkedPoint{{12, 14, 16}, {4, 12345}, 9.25}};
-        commands.grid = true;
-        session.frame(head_at_rest(0), commands, Waiting::for_cells);
-        left = settled(session);
-        SavedSession kept = kept_of(session.state());
-        save_session(path, kept);
-    }
-    Session session(config, file, *context);
-    const auto before = settled(session);
-    session.set_state(
-        state_of(read_session(path), session.state(), "0123456789abcdef", kSteps, "kept"));
-    EXPECT_NE(before, left);
-    EXPECT_EQ(settled(session), left);
-}
-
 /// Whatever a session may have come to: with a session of its own for each, as a new start is one.
 TEST(SessionFile, NoPixelOfAnyRestoredSessionDiffers) {
     TestFolder folder;

@@ -2,6 +2,8 @@
 #include "app/panel/item_table.h"
 
 #include "app/panel/search_table.h"
+#include "interaction/navigation/key_frames.h"
+#include "interaction/navigation/navigation.h"
 #include "tests/app/panel/layer_fixture.h"
 
 #include <gmock/gmock.h>
@@ -45,9 +47,11 @@ class Objects : public LayerTest {
     PanelModel model() const {
         return {.info = info_,
                 .stats = stats_,
+                .data = data_,
                 .asked = asked_,
                 .frame = report_,
-                .controls = controls_};
+                .controls = controls_,
+                .head = head_};
     }
     std::vector<std::string> words() const {
         std::vector<std::string> all;
@@ -56,6 +60,8 @@ class Objects : public LayerTest {
                 all.push_back(words_of_item(kind.item(model(), i)));
         return all;
     }
+    interaction::DataFrame data_;
+    interaction::Pose head_;
     void obey(const Commands& commands) { EXPECT_TRUE(asked_.apply(commands, info_.steps())); }
     static const ItemKind& kind(std::string_view name) {
         return *std::ranges::find(item_kinds(), name, &ItemKind::name);
@@ -70,10 +76,24 @@ TEST_F(Objects, SayWhatThereIsWithItsValue) {
                             "ghosts: 2 earlier, 0 later", "piece alone of vorticity 12 1/s",
                             "piece of vorticity 9.5 1/s", "dust below 20 cells",
                             "mark eye 4.25 1/s", "mark tail 5 1/s", "mark here 6 1/s", "ruler 1 5",
-                            "angle 2 more places", "curve: area over time"));
+                            "angle 2 1 of 3 places", "curve: area over time"));
     EXPECT_EQ(words_for_items(model()), "15 of 17 shown");
     asked_ = {};
     EXPECT_EQ(words_for_items(model()), "1 of 1 shown") << "a plain session has its surface";
+}
+
+TEST_F(Objects, SayValuesInTheDigitsThatTellThoseOfTheirArrayApart) {
+    info_.digits = 8;
+    asked_.isosurfaces = {{.isovalue = 101325.546}};
+    asked_.mark.point->value = 101321.25;
+    EXPECT_EQ(item("surface", 0).value, "101325.55 1/s");
+    EXPECT_EQ(item("mark", 2).value, "101321.25 1/s");
+    asked_.panel = true;
+    frame();
+    frame();
+    EXPECT_TRUE(
+        place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), "101325.55 1/s"))
+        << "in the field of the isovalue, too";
 }
 
 TEST_F(Objects, AreHiddenByTheirEyesWhichBringThemBackAsTheyWere) {
@@ -152,6 +172,64 @@ TEST_F(Objects, GoWhereAMarkWasMade) {
     EXPECT_EQ(commands.marks->back().name, "1") << "the first free number";
 }
 
+TEST_F(Objects, OutOfSightAreBroughtIntoViewByTheirLinesAndInSightStay) {
+    const interaction::Pose head{{0, 1.6f, 0}, {1, 0, 0, 0}};
+    data_.cells = {4, 4, 4};
+    data_.physical_from_box = glm::dmat4(glm::dmat3(4.0));
+    head_ = head;
+    for (const std::string_view name : {"slice", "clip", "mark", "ruler"}) {
+        const ItemKind& kind = this->kind(name);
+        for (std::size_t i = 0; i < kind.count(model()); ++i) {
+            SCOPED_TRACE(testing::Message() << name << i);
+            asked_.room_from_physical = {{0.5, 1.0, 3.0}, {1, 0, 0, 0}, 0.1}; // behind the head
+            const double scale = asked_.room_from_physical.scale;
+            Commands go;
+            go_to_item(kind, model(), i, go);
+            ASSERT_TRUE(go.room_from_physical);
+            EXPECT_EQ(go.room_from_physical->scale, scale);
+            obey(go);
+            glm::dvec3 middle(0.0);
+            const std::vector<glm::dvec3> places = kind.places(model(), i);
+            for (const glm::dvec3& place : places)
+                middle += transform(asked_.room_from_physical, place) /
+                          static_cast<double>(places.size());
+            EXPECT_NEAR(middle.x, head.position.x, 0.2);
+            EXPECT_LT(middle.z, -0.1) << "ahead";
+            Commands again;
+            go_to_item(kind, model(), i, again);
+            EXPECT_FALSE(again.room_from_physical) << "it is in sight";
+        }
+    }
+}
+
+TEST_F(Objects, ThatAreKeyFramesAreShownNamedAndRemovedButNotHidden) {
+    const interaction::Pose head{{0, 1.6f, 0}, {1, 0, 0, 0}};
+    const std::string before = words_for_items(model());
+    asked_.keys = interaction::with_key({}, interaction::key_of(asked_, head));
+    asked_.keys = interaction::with_key(asked_.keys, asked_.keys[0]);
+    asked_.keys[1].name = "end";
+    asked_.bounding_box = !asked_.bounding_box;
+    const bool boxed = asked_.bounding_box;
+    const ItemKind& keys = kind("key");
+    ASSERT_EQ(keys.count(model()), 2u);
+    EXPECT_EQ(words_of_item(keys.item(model(), 0)), "key frame 1 0 s");
+    EXPECT_EQ(keys.item(model(), 1).words, "key frame end");
+    EXPECT_FALSE(keys.has_eye());
+    EXPECT_EQ(words_for_items(model()), before) << "they are no things in the picture";
+    Commands shown, named, removed;
+    go_to_item(keys, model(), 0, shown);
+    obey(shown);
+    EXPECT_NE(asked_.bounding_box, boxed);
+    keys.rename(model(), 0, "begin", named);
+    obey(named);
+    EXPECT_EQ(asked_.keys[0].name, "begin");
+    keys.remove(model(), 0, removed);
+    obey(removed);
+    ASSERT_EQ(asked_.keys.size(), 1u);
+    EXPECT_EQ(asked_.keys[0].name, "end");
+    EXPECT_EQ(asked_.keys[0].time, 0) << "the first one is where the film begins";
+}
+
 TEST_F(Objects, HaveLinesInTheSearchByTheirNames) {
     const PanelModel now = model();
     std::map<std::string, const SearchLine*> by_name;
@@ -163,7 +241,7 @@ TEST_F(Objects, HaveLinesInTheSearchByTheirNames) {
     EXPECT_FALSE(by_name["mark=tail"]->commands.marks->at(1).point.shown);
     EXPECT_EQ(by_name["objects"]->value, "15 of 17 shown");
     for (const char* name : {"surface=1", "slice=2", "clip=box", "model=hull.stl", "ghosts=all",
-                             "piece=1", "ruler=2", "curve=drawer"})
+                             "piece=1", "ruler=2", "curve=drawer", "see_ruler=1", "see_clip=box"})
         EXPECT_TRUE(by_name.contains(name)) << name;
 }
 

@@ -117,6 +117,12 @@ TEST(RangeText, HasAsManyDigitsAsTellItsEndsApart) {
         EXPECT_EQ(range_text(row.low, row.high, "K"), row.words);
     const double largest = std::numeric_limits<double>::max();
     EXPECT_EQ(range_text(-largest, largest), "-1.79769e+308 to 1.79769e+308");
+    index::SeriesInfo info;
+    info.value_unit = "K";
+    const double low = 284.8404235839844, high = 289.36212158203125; // floats
+    EXPECT_EQ(exact_range_text(low, high, info), "284.84042 to 289.36212 K");
+    info.type = index::ValueType::f64;
+    EXPECT_EQ(exact_range_text(low, high, info), "284.8404235839844 to 289.36212158203125 K");
 }
 
 TEST_F(PanelTest, SaysHowManyValuesAreMissing) {

@@ -27,6 +27,7 @@ class Placement : public LayerTest, public testing::WithParamInterface<Screen> {
         size_ = GetParam().size;
         layer_.set_scale(GetParam().scale);
         info_.grid.vertices = {64, 64, 64};
+        offer_three_arrays(); // slices are of one of them
         info_.array = "vorticity";
         info_.value_unit = "1/s";
         info_.length_unit = "m";
@@ -80,7 +81,7 @@ class Placement : public LayerTest, public testing::WithParamInterface<Screen> {
     }
 };
 
-TEST_P(Placement, NothingOverlapsInSeventyTwoStates) {
+TEST_P(Placement, NothingOverlapsInAHundredStates) {
     struct State {
         const char* name;
         std::function<void()> begin;
@@ -90,9 +91,18 @@ TEST_P(Placement, NothingOverlapsInSeventyTwoStates) {
         asked_.mark.point = interaction::MarkedPoint{{1.5, 2.5, 3.5}, {}, 12.25};
     };
     const auto clip = [this] { asked_.clip = {true, {1, 2, 3}, {0, 0, 1}}; };
-    const std::array<State, 4> tools{{{"no tool", nothing},
+    const auto slices = [this] {
+        asked_.slices.planes = {{{1, 2, 3}, {0, 0, 1}}, {{1, 2, 3}, {1, 0, 0}}};
+    };
+    const auto box = [&] {
+        clip();
+        asked_.clip_box = {true, {0, 0, 0}, {9, 9, 9}};
+    };
+    const std::array<State, 6> tools{{{"no tool", nothing},
                                       {"mark", mark},
                                       {"clip", clip},
+                                      {"clip box", box},
+                                      {"slices", slices},
                                       {"all tools", [&] {
                                            mark();
                                            clip();
@@ -134,6 +144,8 @@ TEST_P(Placement, NothingOverlapsInSeventyTwoStates) {
             for (const State& card : cards) {
                 asked_.mark = {};
                 asked_.clip = {};
+                asked_.clip_box = {};
+                asked_.slices = {};
                 asked_.rulers = {};
                 notes_ = {.messages = notes_.messages};
                 frame();
@@ -147,7 +159,22 @@ TEST_P(Placement, NothingOverlapsInSeventyTwoStates) {
                 layer_.pages() = OpenPages();
                 ++states;
             }
-    EXPECT_GE(states, 40);
+    EXPECT_GE(states, 100);
+}
+
+TEST_P(Placement, TheChipAndTheCubeStayInTheCornersThatWordsOfThePictureAvoid) {
+    report_.footprint = render::Footprint::gaussian; // "preview 4 of 4"
+    for (int i = 0; i < 3; ++i)
+        frame();
+    const PanelBox& picture = layer_.layout().picture;
+    for (const Over& over : over_the_picture())
+        if (over.name == "###chip") {
+            EXPECT_LE(over.place.Max.x, picture.low.x + kChipEnd.x);
+            EXPECT_LE(over.place.Max.y, picture.low.y + kChipEnd.y);
+        } else if (over.name == "###cube") {
+            EXPECT_GE(over.place.Min.x, picture.high.x - kCubeEnd.x);
+            EXPECT_LE(over.place.Max.y, picture.low.y + kCubeEnd.y);
+        }
 }
 
 INSTANTIATE_TEST_SUITE_P(Screens, Placement,

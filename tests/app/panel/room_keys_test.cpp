@@ -61,6 +61,26 @@ TEST_F(RoomKeysTest, ANumberIsTypedByARayAlone) {
     EXPECT_EQ(commands.isovalue, 12.5);
 }
 
+TEST_F(RoomKeysTest, EveryWordOfSlicesAndOfTheClipBoxStandsOnThePanel) {
+    asked_.slices.planes = {{{1, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 0}}};
+    asked_.clip = {true, {0, 0, 1}, {0, 0, 1}};
+    asked_.clip_box = {true, {0, 0, 0}, {1, 1, 1}};
+    for (int i = 0; i < 3; ++i)
+        ray(std::nullopt, false);
+    const ImFont& font = *ImGui::GetIO().Fonts->Fonts.front();
+    for (const char* const word :
+         {"isolines", "alone", "flat", "slice across", "clip across", "normal", "box", "z"}) {
+        const auto middle = place_of_text(*ImGui::GetDrawData(), font, word);
+        ASSERT_TRUE(middle) << word;
+        EXPECT_LT(middle->x + ImGui::CalcTextSize(word).x / 2, kRoom.x - 6) << word;
+    }
+    EXPECT_EQ(read_text(*ImGui::GetDrawData(), font).faults.size(), 0u);
+    asked_.clip = {};
+    asked_.clip_box = {};
+    ray(std::nullopt, false);
+    EXPECT_TRUE(press_word("flat").slices.has_value());
+}
+
 TEST_F(RoomKeysTest, WhatIsCanceledChangesNothing) {
     asked_.set_isovalue(37.25);
     press_word("37.25");

@@ -92,7 +92,7 @@ TEST_F(TourTest, GoesOnWithAnySessionOfTheListsInCardAndPanel) {
     EXPECT_EQ(click_on("on Thursday").instant, index::Instant(3));
     EXPECT_FALSE(shows("Start anew"));
     EXPECT_EQ(layer_.pages().take_continued()->words, "on Thursday");
-    click_on("2 to go on with");
+    click_on("2 earlier");
     EXPECT_EQ(click_on("on Thursday").instant, index::Instant(3));
     EXPECT_EQ(layer_.pages().take_continued()->words, "on Thursday");
 }

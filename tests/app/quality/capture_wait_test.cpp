@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <string>
 
 namespace isochron::app {
 namespace {
@@ -33,6 +34,19 @@ TEST(CaptureWait, TakesEachOnceWhenThePictureIsFinal) {
     EXPECT_TRUE(wait.take(view(3, kAsked, kAsked, true)));
     EXPECT_TRUE(wait.take(view(4, kAsked, kAsked, true)));
     EXPECT_FALSE(wait.take(view(5, kAsked, kAsked, true)));
+}
+
+TEST(CaptureWait, SaysThatAPictureIsComingUntilItIsTaken) {
+    CaptureWait wait;
+    EXPECT_EQ(wait.note(), "");
+    wait.ask();
+    EXPECT_FALSE(wait.take(view(0, kAsked, kBefore, true)));
+    EXPECT_NE(wait.note().find("saving a picture"), std::string::npos);
+    wait.ask();
+    EXPECT_NE(wait.note().find("2 pictures"), std::string::npos);
+    EXPECT_TRUE(wait.take(view(1, kAsked, kAsked, true)));
+    EXPECT_TRUE(wait.take(view(2, kAsked, kAsked, true)));
+    EXPECT_EQ(wait.note(), "");
 }
 
 TEST(CaptureWait, OneQuerysCellsAreWaitedForAsLongAsTheyTake) {

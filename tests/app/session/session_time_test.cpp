@@ -1,5 +1,4 @@
 // Ranges, steps left out, ways to and fro and bookmarks: recorded, replayed, undone and saved.
-#include "app/kept/session_file.h"
 #include "app/loop/replay.h"
 #include "interaction/controls/desktop_emulation.h"
 #include "tests/support/session_fixture.h"
@@ -189,15 +188,6 @@ TEST_P(SessionTime, ChangesAreUndoneAndTurningRoundIsNone) {
     EXPECT_THAT(session.state().bookmarks, testing::IsEmpty());
     undo();
     EXPECT_EQ(session.state().play_range, (interaction::StepRange{1, {}}));
-}
-
-TEST_P(SessionTime, ASavedSessionKeepsThem) {
-    Session session(small_config(), file_, *context_);
-    Player player(session);
-    play(player);
-    const auto path = folder_.path() / "kept.isochron-session";
-    save_session(path, {"isochron test", "sphere", "00", session.state().as_commands(), {}});
-    EXPECT_EQ(state_of(read_session(path), {}, "00", 6, "kept"), session.state());
 }
 
 /// Sum of the differences of all colors.

@@ -4,7 +4,6 @@
 #include "tests/bench/measures/stopwatch.h"
 #include "tests/bench/measures/structures.h"
 #include "tests/bench/measures/timing.h"
-#include "tests/bench/rows/rows.h"
 
 #include "index/indexing/index_build.h"
 #include "index/scan/scan.h"
@@ -12,7 +11,6 @@
 #include "tests/support/test_folder.h"
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -140,39 +138,6 @@ TEST(Timing, SweepsForwardsAndBackwards) {
     std::vector<std::uint32_t> visited;
     time_sweep([&](std::uint32_t step) { visited.push_back(step); }, 3, 1);
     EXPECT_THAT(visited, ElementsAre(0, 1, 2, 2, 1, 0, 0, 1, 2, 2, 1, 0)) << "once to warm up";
-}
-
-Results some_results() {
-    Row row;
-    row.data = "sphere";
-    row.type = "u8";
-    row.structure = "thi";
-    row.steps = 25;
-    row.l = 64;
-    row.max_variation = 2;
-    row.threads = 2;
-    row.isovalue = 112.5;
-    row.search_ids_us = 1.23456;
-    row.incremental_full_us = 0.5;
-    return {{"abc", "a processor", "a compiler", "2026-01-01", 2},
-            {row, Row{}},
-            {ErrorDetail{1600, 12, 10.6, 7, 0.5, 4.25}, ErrorDetail{}}};
-}
-
-TEST(Rows, HaveTheKeysOfEveryRowAndNullForWhatAStructureDoesNotHave) {
-    const auto j = to_json(some_results());
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : j.at("rows").at(0).items())
-        keys.push_back(key);
-    EXPECT_THAT(keys, ElementsAre("data", "type", "steps", "structure", "l", "max_variation",
-                                  "threads", "isovalue", "active", "bytes", "percent_of_raw",
-                                  "percent_with_volume", "false_positives", "false_negatives",
-                                  "search_ids_us", "search_full_us", "incremental_full_us",
-                                  "delta_ids", "sweep_ms", "scan_us", "tbon_us", "flying_edges_us",
-                                  "flying_edges_normals_us", "memcpy_us", "build_mcs_per_s"));
-    EXPECT_EQ(j.at("rows").at(0).at("l"), 64);
-    EXPECT_TRUE(j.at("rows").at(1).at("l").is_null());
-    EXPECT_EQ(j.at("rows").at(0).at("search_ids_us"), 1.2346);
 }
 
 } // namespace

@@ -159,31 +159,6 @@ TEST(Percentile, IsTheNumberThatSoManyAreNotAbove) {
     EXPECT_EQ(percentile({7.0}, 99), 7.0);
 }
 
-TEST(RenderRows, GoThroughJsonUnchanged) {
-    RenderRow row;
-    row.data = "sphere";
-    row.footprint = "quad";
-    row.size = 512;
-    row.eyes = 2;
-    row.threads = 2;
-    row.context = "egl";
-    row.cells = 3734;
-    row.fps = 612.5;
-    row.bare_fps = 700.25;
-    row.p99_over_static = 1.25;
-    row.draw_ms = 1.5;
-    row.sent_ids_percent = 10.8;
-    const std::string text = to_json_text(RenderResults{{"0123abcd", "p", "c", "d", 2}, {row}});
-    EXPECT_THAT(text, testing::HasSubstr(
-                          "{\"data\":\"sphere\",\"footprint\":\"quad\",\"size\":512,\"eyes\":2,"
-                          "\"threads\":2,\"context\":\"egl\",\"cells\":3734.0,\"fps\":612.5,"
-                          "\"vtk_fps\":null,\"bare_fps\":700.25,\"p99_over_static\":1.25,"
-                          "\"extract_ms\":0.0,\"order_ms\":0.0,\"upload_ms\":0.0,\"draw_ms\":1.5"));
-    const RenderResults read = render_results_from_json(text, "a.json");
-    EXPECT_EQ(to_json_text(read), text);
-    EXPECT_THROW(render_results_from_json("{\"rows\":[{}]}", "a.json"), index::Error);
-}
-
 TEST(InChild, ReturnsTheAnswerOrItsError) {
     const app::CancelOnSignal signals;
     std::string large(1 << 20, 'x');

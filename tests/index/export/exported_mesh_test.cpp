@@ -13,7 +13,7 @@ namespace {
 CellMesh piece_from(std::uint32_t first, std::uint32_t count) {
     CellMesh piece;
     for (std::uint32_t i = first; i < first + count; ++i) {
-        piece.vertices.emplace_back().share = i;
+        piece.vertices.push_back(MeshVertex{.share = i});
         piece.values.push_back(static_cast<float>(i) / 2);
         const std::uint32_t before = i == 0 ? 0 : i - 1;
         piece.triangles.insert(piece.triangles.end(), {before, i, first + count - 1});

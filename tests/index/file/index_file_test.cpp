@@ -105,6 +105,7 @@ TEST_F(IndexFileTest, EveryTypeGoesInAndComesOutUnchanged) {
             const auto sorted = sorted_values(in);
             EXPECT_EQ(file->stats().low, sorted.front());
             EXPECT_EQ(file->stats().high, sorted.back());
+            EXPECT_EQ(file->info().digits, telling_digits(sorted.front(), sorted.back()));
             std::vector<std::uint64_t> histogram(256);
             for (const double v : sorted)
                 ++histogram[std::min<std::size_t>(

@@ -164,6 +164,65 @@ std::string word_of(const interaction::Isosurface& surface, const index::IndexFi
     return word;
 }
 
+/// Slices, each as x/y/z and its normal; what is none is left out.
+std::vector<interaction::Plane> planes_of(const std::string& text) {
+    std::vector<interaction::Plane> planes;
+    for (const std::string_view one : split(text, ',')) {
+        std::string word(one);
+        std::ranges::replace(word, '/', ',');
+        const auto n = numbers_of(word);
+        if (n.size() != 6 || !(glm::length(glm::dvec3(n[3], n[4], n[5])) > 0))
+            continue;
+        planes.push_back({{n[0], n[1], n[2]}, glm::normalize(glm::dvec3(n[3], n[4], n[5]))});
+        if (planes.size() == interaction::kMostSlices)
+            break;
+    }
+    return planes;
+}
+
+/// Sets the map and its range. @param map, range names of the settings
+void color_as_linked(interaction::Coloring& coloring, const Words& settings, const std::string& map,
+                     const std::string& range) {
+    if (const auto known = render::color_map_from_name(word_of(settings, map)))
+        coloring.map = render::name_of(*known);
+    if (const auto ends = numbers_of(word_of(settings, range));
+        ends.size() == 2 && ends[0] < ends[1])
+        coloring.range = {ends[0], ends[1]};
+}
+
+void slice_as_linked(interaction::Slices& slices, const Words& settings,
+                     const index::IndexFile& file) {
+    const auto planes = planes_of(word_of(settings, "slices"));
+    if (planes.empty())
+        return;
+    slices = {.planes = planes};
+    slices.isolines = word_of(settings, "isolines") != "0";
+    slices.alone = word_of(settings, "alone") == "1";
+    if (const auto number = number_in(settings, "sliceof");
+        number && *number >= 0 && *number < static_cast<double>(file.arrays()))
+        slices.coloring.array = file.array(static_cast<std::size_t>(*number)).info().array;
+    color_as_linked(slices.coloring, settings, "slicemap", "slicerange");
+}
+
+/// The settings of slices; empty: none is seen.
+std::string words_of(const interaction::Slices& slices, const index::IndexFile& file) {
+    std::string list;
+    for (const auto& [point, normal, shown] : slices.planes)
+        if (shown)
+            list +=
+                fmt::format("{}{:.9g}/{:.9g}/{:.9g}/{:.7g}/{:.7g}/{:.7g}", list.empty() ? "" : ",",
+                            point.x, point.y, point.z, normal.x, normal.y, normal.z);
+    if (list.empty())
+        return {};
+    std::string words = fmt::format("&slices={}&slicemap={}", list, slices.coloring.map);
+    if (!slices.coloring.array.empty())
+        if (const auto number = file.array_called(slices.coloring.array))
+            words += fmt::format("&sliceof={}", *number);
+    if (const auto& range = slices.coloring.range)
+        words += fmt::format("&slicerange={:.9g},{:.9g}", (*range)[0], (*range)[1]);
+    return words + (slices.isolines ? "" : "&isolines=0") + (slices.alone ? "&alone=1" : "");
+}
+
 } // namespace
 
 std::size_t array_of_link(const Words& settings, const index::IndexFile& file) {
@@ -206,12 +265,9 @@ ExplorerState as_linked(ExplorerState state, const Words& settings, const index:
         number && *number >= 0 && *number < static_cast<double>(file.arrays())) {
         state.coloring.by = interaction::ColorBy::value;
         state.coloring.array = file.array(static_cast<std::size_t>(*number)).info().array;
-        if (const auto map = render::color_map_from_name(word_of(settings, "map")))
-            state.coloring.map = render::name_of(*map);
-        if (const auto range = numbers_of(word_of(settings, "range"));
-            range.size() == 2 && range[0] < range[1])
-            state.coloring.range = {range[0], range[1]};
+        color_as_linked(state.coloring, settings, "map", "range");
     }
+    slice_as_linked(state.slices, settings, file);
     if (const auto plane = numbers_of(word_of(settings, "plane")); plane.size() == 6) {
         const glm::dvec3 normal(plane[3], plane[4], plane[5]);
         if (glm::length(normal) > 0)
@@ -280,6 +336,7 @@ std::string link_to(const std::string& address, const ExplorerState& state,
         link +=
             fmt::format("&plane={:.9g},{:.9g},{:.9g},{:.7g},{:.7g},{:.7g}", clip.point.x,
                         clip.point.y, clip.point.z, clip.normal.x, clip.normal.y, clip.normal.z);
+    link += words_of(state.slices, file);
     if (state.coloring.by == interaction::ColorBy::value)
         if (const auto number = file.array_called(state.coloring.array)) {
             link += fmt::format("&colors={}&map={}", *number, state.coloring.map);

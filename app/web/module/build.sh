@@ -11,7 +11,7 @@ flags="--target=wasm32-wasi --sysroot=/usr -stdlib=libc++ -isystem $here/stubs
   -DGLM_FORCE_XYZW_ONLY -D_LIBCPP_AVAILABILITY_HAS_INIT_PRIMARY_EXCEPTION=0"
 objects=$(mktemp -d)
 trap 'rm -rf "$objects"' EXIT
-for source in $here/module.cpp index/scan/scan.cpp index/surface/mesh_maker.cpp index/surface/mesh_vertices.cpp \
+for source in $here/module.cpp index/extraction/slice_runs.cpp index/scan/scan.cpp index/surface/mesh_maker.cpp index/surface/mesh_vertices.cpp \
   index/surface/mesh_cases.cpp index/surface/cell_mesh.cpp index/surface/cell_colors.cpp index/file/chunks/packed_rows.cpp \
   index/file/chunks/chunk_sums.cpp index/file/chunks/chunk_codec.cpp index/file/chunks/chunk_grid.cpp \
   index/file/chunks/chunk_differences.cpp index/file/sections/step_levels.cpp index/file/blended_ranks.cpp \

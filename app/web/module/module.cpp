@@ -3,6 +3,7 @@
 //
 // One array of an index at one level of detail is a Volume. Whoever calls gives and takes places in
 // the module's memory, from `take`.
+#include "index/extraction/slice_runs.h"
 #include "index/file/blended_ranks.h"
 #include "index/file/chunks/chunk_codec.h"
 #include "index/file/chunks/chunk_grid.h"
@@ -60,6 +61,14 @@ struct Surface {
     std::vector<float> values; ///< values of this array at the points of another one's surface
 };
 
+/// What a plane cuts.
+struct Slice {
+    std::optional<SliceRuns> runs;
+    SliceValues values;
+    std::vector<std::uint32_t> chunks; ///< layer and place of each that it needs
+    std::vector<float> outline;        ///< in distances along the axes of the grid
+};
+
 struct Volume {
     explicit Volume(const Description& of, const Grid& grid_of)
         : grid(grid_of), type(static_cast<ValueType>(of.type)), scaling{of.slope, of.intercept},
@@ -80,6 +89,7 @@ struct Volume {
     std::array<std::vector<std::byte>, 2> cubes; ///< the step's, and the next one's
     std::vector<std::byte> blended;
     Surface surface;
+    Slice slice;
 
     std::size_t head_bytes() const {
         return sizeof(RecordChecksum) + (has_bricks ? sizeof(ChunkBricks) : 0);
@@ -327,6 +337,10 @@ int candidates(const Volume* volume, const std::byte* table, const std::byte* ta
     return count;
 }
 
+/// Checks the table of a layer. @return 0: it is damaged
+EXPORT("check_table") int check_table(const Volume* volume, const std::byte* table) {
+    return entries_of(*volume, table) ? 1 : 0;
+}
 /// Checks a record. @return 0: it is damaged
 EXPORT("check") int check(const Volume* volume, const std::byte* record, std::size_t count) {
     RecordChecksum sum;
@@ -420,13 +434,72 @@ const float* values(Volume* other, const Volume* of, std::uint32_t layer, std::u
     return other->surface.values.data();
 }
 
+/// Begins a slice, after the moment was set by `set_colors`; all its values are missing.
+/// @param plane a point on it, less the grid's origin, its unit normal, and the lowest and highest value of the array
+/// @param most values and columns of each that are taken @return number of the chunks that it needs; -1: too large
+EXPORT("slice") int slice(Volume* volume, const double* plane, std::size_t most) {
+    Slice& made = volume->slice;
+    made = {};
+    const SliceQuery query{.point = {plane[0], plane[1], plane[2]},
+                           .normal = {plane[3], plane[4], plane[5]}};
+    made.runs.emplace(volume->grid, query);
+    if (made.runs->empty())
+        return 0;
+    if (std::max(made.runs->values(), made.runs->columns()) > most)
+        return -1;
+    const auto& blend = volume->blend;
+    made.values = made.runs->empty_slice({plane[6], plane[7]}, blend ? blend->type() : volume->type,
+                                         blend ? blend->scaling() : volume->scaling);
+    for (const glm::dvec3& corner : made.values.outline)
+        for (int axis = 0; axis < 3; ++axis)
+            made.outline.push_back(static_cast<float>(corner[axis] * volume->grid.spacing[axis]));
+    const auto places = made.runs->chunks(volume->chunks);
+    for (std::uint32_t layer = 0; layer < places.size(); ++layer)
+        for (const std::uint32_t place : places[layer])
+            made.chunks.insert(made.chunks.end(), {layer, place});
+    return static_cast<int>(made.chunks.size() / 2);
+}
+/// Copies what a chunk has of the slice. @param values of the chunk, unpacked
+/// @param values_next those at the next step, between the two; else null
+EXPORT("slice_chunk")
+void slice_chunk(Volume* volume, std::uint32_t layer, std::uint32_t place, const std::byte* values,
+                 const std::byte* values_next) {
+    const auto size = volume->chunks.size(layer, place);
+    const std::size_t bytes = chunk_bytes(volume, layer, place);
+    std::span<const std::byte> filled(values, bytes);
+    if (values_next && volume->blend) {
+        const Blend& blend = *volume->blend;
+        volume->blended.resize(bytes / size_of(volume->type) * size_of(blend.type()));
+        blend(filled, {values_next, bytes}, volume->blended.data());
+        filled = volume->blended;
+    }
+    const auto [x, y] = volume->chunks.at(place);
+    volume->slice.runs->copy(filled, {x * kChunkEdge, y * kChunkEdge, layer * kChunkEdge}, size,
+                             volume->slice.values);
+}
+
+std::uint32_t place_of(const void* memory) {
+    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(memory));
+}
+/// What a slice has: chunks, columns, shares, outline as places in memory, then how many columns,
+/// shares and numbers of the outline, and the axis of the columns.
+EXPORT("sliced") void sliced(const Volume* volume, std::uint32_t* out) {
+    const Slice& made = volume->slice;
+    const auto count_of = [](const auto& of) { return static_cast<std::uint32_t>(of.size()); };
+    out[0] = place_of(made.chunks.data());
+    out[1] = place_of(made.values.columns.data());
+    out[2] = place_of(made.values.shares.data());
+    out[3] = place_of(made.outline.data());
+    out[4] = count_of(made.values.columns);
+    out[5] = count_of(made.values.shares);
+    out[6] = count_of(made.outline);
+    out[7] = static_cast<std::uint32_t>(made.values.axis);
+}
+
 /// What `find` has found: cells, points, normals, triangles as places in memory, then how many points
 /// and how many triangles.
 EXPORT("found") void found(const Volume* volume, std::uint32_t* out) {
     const Surface& made = volume->surface;
-    const auto place_of = [](const void* memory) {
-        return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(memory));
-    };
     out[0] = place_of(made.cells.data());
     out[1] = place_of(made.points.data());
     out[2] = place_of(made.normals.data());

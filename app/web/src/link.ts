@@ -11,6 +11,7 @@ export interface Surface {
 }
 /** As many as the native program shows. */
 export const MOST_SURFACES = 8;
+export const MOST_SLICES = 3;
 
 export interface Linked {
   file?: string;
@@ -30,6 +31,16 @@ export interface Linked {
   clip?: [axis: number, share: number];
   /** A clip plane in any direction: a point on it, and its normal towards what is cut away, physical space. */
   plane?: number[];
+  /** Slices: of each a point, and its normal, physical space. */
+  slices?: number[][];
+  /** The array whose values they show; absent: the surfaces'. */
+  sliceof?: number;
+  slicemap?: string;
+  slicerange?: number[];
+  /** 0: no lines of the isovalues on them. */
+  isolines?: number;
+  /** 1: without the surfaces. */
+  alone?: number;
   /** What is up in the picture; absent: the data's z. */
   up?: number[];
   /** So many 65536ths of the way to the next step. */
@@ -55,7 +66,7 @@ export function linked(hash: string): Linked {
   if (file && isPlain(file)) state.file = file;
   const story = words.get("story");
   if (story && isPlain(story)) state.story = story;
-  for (const name of ["array", "step", "colors", "picked", "told", "fraction"] as const) {
+  for (const name of ["array", "step", "colors", "picked", "told", "fraction", "sliceof", "isolines", "alone"] as const) {
     const value = numberOf(words.get(name));
     if (value !== undefined && Number.isInteger(value) && value >= 0) state[name] = value;
   }
@@ -70,17 +81,24 @@ export function linked(hash: string): Linked {
     return { isovalue: numberOf(isovalue ?? null) ?? NaN, color: /^[0-9a-f]{6}$/i.test(color ?? "") ? `#${color}` : "#e8d3a0", opacity: Math.min(1, Math.max(0, opacity)) };
   });
   if (surfaces.length <= MOST_SURFACES && surfaces.every(({ isovalue }) => Number.isFinite(isovalue))) state.surfaces = surfaces;
-  const map = words.get("map");
-  if (map && (MAP_NAMES as string[]).includes(map)) state.map = map;
+  for (const name of ["map", "slicemap"] as const) {
+    const map = words.get(name);
+    if (map && (MAP_NAMES as string[]).includes(map)) state[name] = map;
+  }
+  const slices = (words.get("slices") ?? "")
+    .split(",")
+    .map((word) => word.split("/").map((number) => numberOf(number) ?? NaN))
+    .filter((plane) => plane.length === 6 && plane.every(Number.isFinite) && Math.hypot(...plane.slice(3)) > 0);
+  if (slices.length) state.slices = slices.slice(0, MOST_SLICES);
   const clip = (words.get("clip") ?? "").split(",").map(Number);
   if (clip.length === 2 && [0, 1, 2].includes(clip[0]!) && clip[1]! >= 0 && clip[1]! <= 1) state.clip = clip as [number, number];
-  for (const [name, count] of [["view", 6], ["up", 3], ["plane", 6], ["range", 2]] as const) {
+  for (const [name, count] of [["view", 6], ["up", 3], ["plane", 6], ["range", 2], ["slicerange", 2]] as const) {
     const numbers = (words.get(name) ?? "").split(",").map(Number);
     if (numbers.length === count && numbers.every(Number.isFinite)) state[name] = numbers;
   }
   for (const direction of [state.up, state.plane?.slice(3)])
     if (direction && !(Math.hypot(...direction) > 0)) delete state[direction === state.up ? "up" : "plane"];
-  if (state.range && !(state.range[0]! < state.range[1]!)) delete state.range;
+  for (const name of ["range", "slicerange"] as const) if (!(state[name]?.[0]! < state[name]?.[1]!)) delete state[name];
   for (const name of ["color", "background"] as const) {
     const value = words.get(name);
     if (value && /^#[0-9a-f]{6}$/i.test(value)) state[name] = value;
@@ -90,8 +108,9 @@ export function linked(hash: string): Linked {
 
 export function linkOf(state: Linked): string {
   const words = new URLSearchParams();
-  const { surfaces, ...others } = state;
+  const { surfaces, slices, ...others } = state;
   if (surfaces) words.set("surfaces", surfaces.map(({ isovalue, color, opacity }) => `${isovalue}/${color.slice(1)}/${opacity}`).join(","));
+  if (slices) words.set("slices", slices.map((plane) => plane.map((n) => +n.toPrecision(9)).join("/")).join(","));
   for (const [name, value] of Object.entries(others) as [string, unknown][])
     if (value !== undefined) words.set(name, Array.isArray(value) ? value.map((n: number) => +n.toPrecision(6)).join(",") : String(value));
   return `#${words.toString()}`;

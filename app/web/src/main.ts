@@ -1,8 +1,8 @@
 // The page: opens the index beside it, and shows the surface that the controls and the link ask for.
 import "./style.css";
 import { Vector3 } from "three";
-import { isPlain, linked, linkOf, MOST_SURFACES, type Linked, type Surface } from "./link";
-import type { Asked, Found, FromWorker, ToWorker } from "./messages";
+import { isPlain, linked, linkOf, MOST_SLICES, MOST_SURFACES, type Linked, type Surface } from "./link";
+import type { Asked, Found, FromWorker, SliceValues, ToWorker } from "./messages";
 import type { Info } from "./reader/index_file";
 import { misfit, storyAt, type Key } from "./story/story";
 import { Teller } from "./story/teller";
@@ -45,6 +45,14 @@ const colorBy = part<HTMLSelectElement>("color-by");
 const map = part<HTMLSelectElement>("map");
 const clipAxis = part<HTMLSelectElement>("clip-axis");
 const clipShare = part<HTMLInputElement>("clip-share");
+const slice = part<HTMLSelectElement>("slice");
+const sliceNormal = part<HTMLInputElement>("slice-normal");
+const slicePlace = part<HTMLInputElement>("slice-place");
+const sliceOf = part<HTMLSelectElement>("slice-of");
+const sliceMap = part<HTMLSelectElement>("slice-map");
+const isolines = part<HTMLInputElement>("isolines");
+const alone = part<HTMLInputElement>("alone");
+sliceMap.replaceChildren(...MAP_NAMES.map((name) => new Option(name, name)));
 map.replaceChildren(...MAP_NAMES.map((name) => new Option(name, name)));
 
 const scene = new Scene(part<HTMLCanvasElement>("picture"), part("ticks"));
@@ -66,15 +74,18 @@ const say = (words: ToWorker) => worker.postMessage(words);
 let state: Linked = linked(location.hash);
 let infos: Info[] = [];
 let levels = 1;
-let asked: Asked = { array: 0, step: 0, fraction: 0, isovalues: [0], colors: null };
+let asked: Asked = { array: 0, step: 0, fraction: 0, isovalues: [0], colors: null, slices: [], sliceOf: 0, alone: false };
 let range: number[] | null = null; // the ends of the color map; null: all values
 let plane: number[] | null = null; // of a clip plane that a story or a link has: a point on it, and its normal
 let story: Key[] | null = null;
 let badStory = ""; // why there is none
+let slices: number[][] = []; // of each a point, and its unit normal, physical space
+let pickedSlice = 0;
+let sliceRange: number[] | null = null; // the ends of their color map; null: all values
 let surfaces: Surface[] = [{ isovalue: 0, color: COLORS[0]!, opacity: 1 }];
 let picked = 0;
 let grows = false; // the server says that the file may
-let last: { asked: Asked; found: Found[] } | null = null;
+let last: { asked: Asked; found: Found[]; slices: SliceValues[] } | null = null;
 let number = 0;
 let shown = 0;
 let playing = false;
@@ -99,7 +110,14 @@ function firstIsovalue(of: Info): number {
 
 /** Asks for the surfaces: coarse levels first, and while something is dragged only these. */
 function ask(coarse: boolean): void {
-  asked = { ...asked, isovalues: surfaces.map((each) => each.isovalue) };
+  const { origin } = info();
+  asked = {
+    ...asked,
+    isovalues: surfaces.map((each) => each.isovalue),
+    slices: slices.map((each) => each.map((n, i) => n - (origin[i] ?? 0))),
+    sliceOf: sliceOf.value === "" ? asked.array : Number(sliceOf.value),
+    alone: alone.checked,
+  };
   const finest = coarse ? Math.min(levels - 1, info().vertices.some((n) => n > 160) ? 2 : info().vertices.some((n) => n > 80) ? 1 : 0) : 0;
   const wanted: number[] = [];
   for (let level = levels - 1; level >= finest; --level) {
@@ -109,6 +127,7 @@ function ask(coarse: boolean): void {
   say({ kind: "find", number: ++number, asked, levels: wanted });
   chip.textContent = "searching …";
   listSurfaces();
+  listSlices();
   time.step = between.checked ? "any" : "1";
   time.value = String(asked.step + asked.fraction / FRACTIONS);
   moment.textContent = momentWords();
@@ -136,6 +155,69 @@ function listSurfaces(): void {
   if (document.activeElement !== isovalue) isovalue.value = words(own.isovalue);
   color.value = own.color;
   opacity.value = String(own.opacity);
+}
+
+/** The lowest and highest distance of the data's box along a normal, and how far a cell reaches there. */
+function reachAlong(normal: readonly number[]): { low: number; high: number; cell: number } {
+  const { vertices, spacing, direction, origin } = info();
+  let low = origin.reduce((sum, n, i) => sum + n * normal[i]!, 0);
+  let high = low;
+  let cell = 0;
+  direction.forEach((column, axis) => {
+    const a_cell = column.reduce((sum, n, i) => sum + n * normal[i]!, 0) * spacing[axis]!;
+    const whole = a_cell * (vertices[axis]! - 1);
+    if (whole < 0) low += whole;
+    else high += whole;
+    cell = Math.max(cell, Math.abs(a_cell));
+  });
+  return { low, high, cell };
+}
+const along = (each: readonly number[]): number => each[0]! * each[3]! + each[1]! * each[4]! + each[2]! * each[5]!;
+
+/** Puts the slice that is picked elsewhere along its normal. */
+function placeSlice(at: number): void {
+  const each = slices[pickedSlice];
+  if (!each) return;
+  const normal = each.slice(3);
+  const { low, high } = reachAlong(normal);
+  const by = Math.min(high, Math.max(low, at)) - along(each);
+  slices[pickedSlice] = [...each.slice(0, 3).map((n, i) => n + by * normal[i]!), ...normal];
+}
+/** A slice through the middle of the data. @return null: that is no direction */
+function sliceAcross(normal: readonly number[]): number[] | null {
+  const length = Math.hypot(...normal);
+  if (normal.length !== 3 || !(length > 0) || !Number.isFinite(length)) return null;
+  const { vertices, spacing, direction, origin } = info();
+  const middle = origin.map((n, i) => n + direction.reduce((sum, column, axis) => sum + (column[i]! * spacing[axis]! * (vertices[axis]! - 1)) / 2, 0));
+  return [...middle, ...normal.map((n) => n / length)];
+}
+/** Adds a slice across the axis after that of the one that is picked. */
+function addSlice(): void {
+  const { direction } = info();
+  const normal = slices[pickedSlice]?.slice(3);
+  const before = normal ? direction.findIndex((column) => Math.abs(column.reduce((sum, n, i) => sum + n * normal[i]!, 0)) > 0.999) : 1;
+  const axis = (before + 1) % 3;
+  // At right angles to the axis, also where axes are not at right angles to each other.
+  const [a, b] = [direction[(axis + 1) % 3]!, direction[(axis + 2) % 3]!];
+  const added = sliceAcross([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]);
+  if (!added || slices.length === MOST_SLICES) return;
+  slices.push(added);
+  pickedSlice = slices.length - 1;
+  ask(false);
+}
+
+/** Shows the list of slices, and where the one is that is moved. */
+function listSlices(): void {
+  slice.replaceChildren(...(slices.length ? slices.map((_, i) => new Option(String(i + 1), String(i))) : [new Option("none", "")]));
+  slice.value = slices.length ? String(pickedSlice) : "";
+  part<HTMLButtonElement>("slice-remove").disabled = slices.length === 0;
+  part<HTMLButtonElement>("slice-add").disabled = slices.length === MOST_SLICES;
+  part("slice-parts").hidden = slices.length === 0;
+  const each = slices[pickedSlice];
+  if (!each) return;
+  if (document.activeElement !== sliceNormal) sliceNormal.value = each.slice(3).map((n) => +n.toPrecision(4) + 0).join(", ");
+  const { low, high } = reachAlong(each.slice(3));
+  if (document.activeElement !== slicePlace) slicePlace.value = String((along(each) - low) / (high - low));
 }
 
 /** Changes the surface that is picked. */
@@ -167,6 +249,12 @@ function keep(): void {
     ...(surfaces.length > 1 ? { surfaces, picked } : { color: surfaces[0]!.color, opacity: surfaces[0]!.opacity }),
     ...(scene.up ? { up: scene.up } : {}),
     ...(asked.colors === null ? {} : { colors: asked.colors, map: map.value, ...(range ? { range } : {}) }),
+    ...(slices.length
+      ? {
+          slices, slicemap: sliceMap.value, ...(sliceOf.value === "" ? {} : { sliceof: Number(sliceOf.value) }), ...(sliceRange ? { slicerange: sliceRange } : {}),
+          ...(isolines.checked ? {} : { isolines: 0 }), ...(alone.checked ? { alone: 1 } : {}),
+        }
+      : {}),
     ...(clipAxis.value === "plane" ? { plane: plane! } : clipAxis.value === "" ? {} : { clip: [Number(clipAxis.value), Number(clipShare.value)] as [number, number] }),
     ...(story && state.story ? { story: state.story, told: teller.told } : {}),
   };
@@ -183,6 +271,20 @@ function choose(array: number, of?: Surface[]): void {
   histogram.show(info());
 }
 
+/** Shows the slices that were found last. */
+function paintSlices(): void {
+  const ofSlices = infos[(last?.asked ?? asked).sliceOf]!;
+  const [bottom, top] = (sliceRange ?? [ofSlices.low, ofSlices.high]) as [number, number];
+  drawLegend(part<HTMLCanvasElement>("slice-colors"), sliceMap.value as MapName);
+  part("slice-words").textContent = `${words(bottom)} to ${words(top)} ${ofSlices.valueUnit}`;
+  if (last)
+    scene.slice(last.slices, ofSlices, {
+      map: sliceMap.value as MapName,
+      range: [bottom, top],
+      lines: isolines.checked && last.asked.sliceOf === last.asked.array ? surfaces : [],
+    });
+}
+
 /** Shows what was found last in its colors, with their legend. */
 function paint(): void {
   const colors = (last?.asked ?? asked).colors;
@@ -195,6 +297,7 @@ function paint(): void {
     part("legend-words").textContent = `${words(low)} to ${words(high)} ${of.valueUnit}`;
   }
   scene.look(surfaces);
+  paintSlices();
   if (last) scene.show(last.found, last.found.map(({ values }) => (of && values ? colorsOf(name, values, low, high) : null)));
 }
 
@@ -301,6 +404,14 @@ function opened(found: Info[], count: number): void {
   if (state.map) map.value = state.map;
   range = state.range ?? null;
   plane = state.plane ?? null;
+  slices = (state.slices ?? []).map((each) => [...each.slice(0, 3), ...each.slice(3).map((n) => n / Math.hypot(...each.slice(3)))]);
+  sliceRange = state.slicerange ?? null;
+  sliceOf.replaceChildren(new Option("as the surfaces", ""), ...infos.map((each, i) => new Option(each.array || "values", String(i))));
+  sliceOf.value = state.sliceof !== undefined && state.sliceof < infos.length ? String(state.sliceof) : "";
+  sliceOf.hidden = infos.length < 2;
+  if (state.slicemap) sliceMap.value = state.slicemap;
+  isolines.checked = state.isolines !== 0;
+  alone.checked = state.alone === 1;
   const cut = state.clip;
   scene.frame(info());
   const place = (first: number) => new Vector3(...(view!.slice(first, first + 3) as [number, number, number]));
@@ -339,7 +450,7 @@ worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
   const count = data.found.reduce((sum, each) => sum + each.cells, 0);
   const cells = count.toLocaleString("en");
   chip.classList.remove("failed");
-  chip.textContent = count === 0 && exact ? "no surface at this isovalue" : exact ? `exact: ${cells} cells` : `preview, 1/${2 ** data.level} of the resolution`;
+  chip.textContent = data.found.length === 0 && exact ? "exact: slices alone" : count === 0 && exact ? "no surface at this isovalue" : exact ? `exact: ${cells} cells` : `preview, 1/${2 ** data.level} of the resolution`;
   chip.dataset["exact"] = String(exact);
   chip.dataset["cells"] = String(count);
   if (badStory && exact) chip.textContent += `; ${badStory}`;
@@ -425,6 +536,7 @@ remove.addEventListener("click", () => {
 const style = () => {
   change({ color: color.value, opacity: Number(opacity.value) });
   scene.look(surfaces);
+  if (slices.length) paintSlices();
   scene.background(background.value);
   keepSoon();
 };
@@ -438,6 +550,41 @@ map.addEventListener("change", () => {
   paint();
   keep();
 });
+slice.addEventListener("change", () => {
+  pickedSlice = Number(slice.value);
+  listSlices();
+});
+part("slice-add").addEventListener("click", addSlice);
+part("slice-remove").addEventListener("click", () => {
+  slices.splice(pickedSlice, 1);
+  pickedSlice = Math.max(0, Math.min(pickedSlice, slices.length - 1));
+  ask(false);
+});
+const turnSlice = (normal: readonly number[]) => {
+  const turned = sliceAcross(normal);
+  if (!turned) return listSlices();
+  // About its own point.
+  slices[pickedSlice] = [...slices[pickedSlice]!.slice(0, 3), ...turned.slice(3)];
+  ask(false);
+};
+sliceNormal.addEventListener("change", () => turnSlice(sliceNormal.value.split(",").map(Number)));
+part("slice-axes").querySelectorAll("button").forEach((button, axis) => button.addEventListener("click", () => turnSlice([0, 1, 2].map((i) => Number(i === axis)))));
+for (const name of ["input", "change"])
+  slicePlace.addEventListener(name, () => {
+    const { low, high } = reachAlong(slices[pickedSlice]!.slice(3));
+    placeSlice(low + Number(slicePlace.value) * (high - low));
+    ask(name === "input");
+  });
+sliceOf.addEventListener("change", () => {
+  sliceRange = null;
+  ask(false);
+});
+for (const input of [sliceMap, isolines])
+  input.addEventListener("change", () => {
+    paint();
+    keep();
+  });
+alone.addEventListener("change", () => ask(false));
 clipAxis.addEventListener("change", clip);
 clipShare.addEventListener("input", clip);
 part("copy").addEventListener("click", () => {
@@ -462,7 +609,13 @@ document.addEventListener("keydown", (event) => {
   if (event.key === " ") play.click();
   else if (event.key === "ArrowRight") asked = { ...asked, step: Math.min(steps - 1, asked.step + 1), fraction: 0 };
   else if (event.key === "ArrowLeft") asked = { ...asked, step: asked.fraction ? asked.step : Math.max(0, asked.step - 1), fraction: 0 };
-  else return;
+  else if (event.key === "6") return addSlice();
+  else if (event.key === "h" && slices.length) alone.checked = !alone.checked;
+  else if (event.key === "Delete") slices = [];
+  else if ((event.key === "ArrowUp" || event.key === "ArrowDown") && slices[pickedSlice]) {
+    const { cell } = reachAlong(slices[pickedSlice]!.slice(3));
+    placeSlice(along(slices[pickedSlice]!) + (event.key === "ArrowUp" ? cell : -cell));
+  } else return;
   event.preventDefault();
   if (event.key !== " ") ask(false);
 });

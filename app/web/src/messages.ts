@@ -10,6 +10,12 @@ export interface Asked {
   isovalues: number[];
   /** The array whose values color the surface; null: its own color. */
   colors: number | null;
+  /** Planes, each a point on it, less the data's origin, and its unit normal. */
+  slices: number[][];
+  /** The array whose values the slices show. */
+  sliceOf: number;
+  /** Surfaces are hidden, and not searched, while there are slices. */
+  alone: boolean;
 }
 
 export type ToWorker =
@@ -28,8 +34,28 @@ export interface Found {
   cells: number;
 }
 
+/** The values at the vertices of all cells that a plane cuts, in arrays that are handed over (index/extraction/slice_runs.h). */
+export interface SliceValues {
+  /** Along which columns lie. */
+  axis: number;
+  /** Where the run of each column begins in `shares`, and at which vertex; filled up to whole rows of SLICE_ROW. */
+  columns: Uint32Array;
+  /** Lowest and highest value of the array when it was read. */
+  whole: readonly [number, number];
+  /** As shares of `whole`; 3e38: missing. Filled up as `columns`. */
+  shares: Float32Array;
+  /** Corners in their order, in distances along the axes of the grid. */
+  outline: Float32Array;
+  /** Of the level of detail. */
+  vertices: readonly number[];
+  spacing: readonly number[];
+  positions: readonly (readonly number[])[];
+}
+/** Texels in a row of the pictures in which columns and shares go to the GPU. */
+export const SLICE_ROW = 2048;
+
 export type FromWorker =
   /** @param again it is a later state of the file that was open */
   | { kind: "opened"; arrays: Info[]; levels: number; again: boolean }
-  | { kind: "found"; number: number; asked: Asked; level: number; found: Found[]; last: boolean; requests: number; bytes: number }
+  | { kind: "found"; number: number; asked: Asked; level: number; found: Found[]; slices: SliceValues[]; last: boolean; requests: number; bytes: number }
   | { kind: "failed"; number: number; words: string; changed: boolean };

@@ -17,12 +17,16 @@ interface Exports {
   set_query(volume: number, fraction: number, isovalue: number): number;
   set_colors(volume: number, fraction: number): void;
   candidates(volume: number, table: number, tableNext: number, out: number): number;
+  check_table(volume: number, table: number): number;
   check(volume: number, record: number, count: number): number;
   unpack(volume: number, layer: number, place: number, record: number, count: number, out: number): number;
   bricks(volume: number, record: number, recordNext: number, around: number): number;
   find(volume: number, layer: number, place: number, bricks: number, around: number, aroundNext: number): number;
   values(other: number, of: number, layer: number, place: number, around: number, aroundNext: number): number;
   found(volume: number, out: number): void;
+  slice(volume: number, plane: number, most: number): number;
+  slice_chunk(volume: number, layer: number, place: number, values: number, valuesNext: number): void;
+  sliced(volume: number, out: number): void;
 }
 
 /** Unpacks an LZ4 block; -1 where it is damaged. */

@@ -1,5 +1,5 @@
 // Reads, searches and makes triangles, beside the page. A newer wish ends the search for an older one.
-import type { FromWorker, Found, ToWorker } from "./messages";
+import type { FromWorker, Found, SliceValues, ToWorker } from "./messages";
 import { Module } from "./module";
 import { IndexFile } from "./reader/index_file";
 import { FileChanged, HttpSource } from "./reader/ranges";
@@ -70,14 +70,22 @@ async function find(wish: Extract<ToWorker, { kind: "find" }>, stop: AbortSignal
     const surfaces = surfacesOf(asked.array, level);
     const colors = asked.colors === null ? undefined : surfacesOf(asked.colors, level);
     const found: Found[] = [];
-    for (const isovalue of asked.isovalues) {
+    const slices: SliceValues[] = [];
+    for (const plane of asked.slices) {
+      const slice = await surfacesOf(asked.sliceOf, level).slice(asked.step, asked.fraction, plane, stop);
+      if (slice) slices.push(slice);
+    }
+    for (const isovalue of asked.alone && asked.slices.length ? [] : asked.isovalues) {
       const pieces: Piece[] = [];
       await surfaces.find(asked.step, asked.fraction, isovalue, (piece) => pieces.push(piece), stop, colors);
       found.push(whole(pieces));
     }
     say(
-      { kind: "found", number, asked, level, found, last: level === levels.at(-1), requests: source.requests, bytes: source.bytes },
-      found.flatMap((each) => [each.points.buffer, each.normals.buffer, each.triangles.buffer, ...(each.values ? [each.values.buffer] : [])]),
+      { kind: "found", number, asked, level, found, slices, last: level === levels.at(-1), requests: source.requests, bytes: source.bytes },
+      [
+        ...found.flatMap((each) => [each.points.buffer, each.normals.buffer, each.triangles.buffer, ...(each.values ? [each.values.buffer] : [])]),
+        ...slices.flatMap((each) => [each.columns.buffer, each.shares.buffer, each.outline.buffer]),
+      ],
     );
   }
 }

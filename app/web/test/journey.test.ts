@@ -280,6 +280,47 @@ test.each<[string, string, RegExp]>([
   await page.close();
 });
 
+test("shows slices by keys, field and link, beside the surface and alone", async () => {
+  const page = await open("#isovalue=12.5&background=%23000000&view=19.75,-60,19.75,19.75,19.75,19.75");
+  await settled(page, cells(0, 12.5));
+  const pixel = (x: number, y: number) => page.evaluate(([px, py]) => {
+    const canvas = document.getElementById("picture") as HTMLCanvasElement;
+    const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height });
+    const context = copy.getContext("2d")!;
+    context.drawImage(canvas, 0, 0);
+    return [...context.getImageData(px! * canvas.width, py! * canvas.height, 1, 1).data.slice(0, 3)];
+  }, [x, y]);
+  await page.keyboard.press("6"); // across z
+  await page.waitForFunction(() => location.hash.includes("slices=19.5%2F19.5%2F19.5%2F0%2F0%2F1"));
+  await page.fill("#slice-normal", "0, 2, 0");
+  await page.press("#slice-normal", "Enter");
+  await page.evaluate(() => (document.activeElement as HTMLElement).blur());
+  await page.keyboard.press("h");
+  await settled(page, 0);
+  expect(await page.textContent("#chip")).toBe("exact: slices alone");
+  expect(await page.textContent("#slice-words")).toMatch(/^0.4.* to .* mm$/);
+  await page.evaluate(() => new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go))));
+  // In the middle of the ball are the lowest values, which are dark violet in viridis; in its corners are green ones.
+  const [dark, green, beside] = [await pixel(0.5, 0.5), await pixel(0.5 + 0.22, 0.5 - 0.3), await pixel(0.5 + 0.28, 0.5)];
+  expect(dark[2]!).toBeGreaterThan(dark[1]! + 40);
+  expect(green[1]!).toBeGreaterThan(green[2]! + 20);
+  expect(beside).toEqual([0, 0, 0]);
+  await page.keyboard.press("ArrowUp");
+  await page.waitForFunction(() => location.hash.includes("slices=19.5%2F20.5%2F19.5%2F0%2F1%2F0"));
+  const again = await browser.newPage({ viewport: { width: 800, height: 600 } });
+  await again.goto(page.url());
+  await settled(again, 0);
+  expect(await again.isChecked("#alone")).toBe(true);
+  expect(await again.inputValue("#slice-normal")).toBe("0, 1, 0");
+  await page.keyboard.press("h");
+  await settled(page, cells(0, 12.5));
+  await page.keyboard.press("Delete");
+  await page.waitForFunction(() => !location.hash.includes("slices"));
+  expect(await page.isVisible("#slice-parts")).toBe(false);
+  await page.close();
+  await again.close();
+});
+
 test("a link holds settings alone", async () => {
   const page = await open("#file=../../etc/passwd&isovalue=12.5&color=javascript:alert(1)");
   expect(await exact(page)).toBe(cells(0, 12.5));

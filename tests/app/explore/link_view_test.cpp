@@ -53,6 +53,12 @@ TEST_F(LinkView, IsReadAsItWasWritten) {
     state.clip = {true, {101, -19.5, 4}, {0, 0.6, -0.8}};
     state.coloring = {.by = interaction::ColorBy::value, .map = "turbo", .range = {{-1, 2.5}}};
     state.coloring.array = file_.info().array;
+    state.slices = {.planes = {{{103, -12, 6.5}, {0.6, 0, 0.8}}, {{1, 2, 3}, {1, 0, 0}, false}}};
+    state.slices.coloring.map = "turbo";
+    state.slices.coloring.range = {{-2, 1}};
+    state.slices.coloring.array = file_.info().array;
+    state.slices.isolines = false;
+    state.slices.alone = true;
     // The data lie on their side, and no camera whose up is their z sees them so.
     state.room_from_physical.rotation =
         glm::angleAxis(2.0, glm::normalize(glm::dvec3(0.3, 0.5, -1)));
@@ -69,6 +75,8 @@ TEST_F(LinkView, IsReadAsItWasWritten) {
     EXPECT_NEAR(glm::distance(read.clip.normal, state.clip.normal), 0, 1e-9);
     EXPECT_EQ(read.coloring.map, "turbo");
     EXPECT_EQ(read.coloring.range, state.coloring.range);
+    state.slices.planes.pop_back(); // a link holds what is seen
+    EXPECT_EQ(read.slices, state.slices);
     EXPECT_GT(
         std::abs(glm::dot(read.room_from_physical.rotation, state.room_from_physical.rotation)),
         1 - 1e-9);
@@ -112,7 +120,8 @@ TEST_F(LinkView, IgnoresWhatIsNoSetting) {
          {"isovalue=1e999&step=-1&array=7&view=1,2,3",
           "isovalue=nan&step=99999999999&surfaces=,/,&picked=5",
           "view=1,1,1,1,1,1&clip=7,2&colors=-1&opacity=abc", "view=nan,1,1,1,1,1&isovalue=0x10",
-          "%%%&&=&=;", "plane=1,2,3,0,0,0&up=0,0,0&range=2,1&map=none"})
+          "%%%&&=&=;", "plane=1,2,3,0,0,0&up=0,0,0&range=2,1&map=none",
+          "slices=1/2/3/0/0/0,1/2/3,a/b/c/d/e/f&alone=1"})
         EXPECT_EQ(
             reread("http://h/" + std::to_string(std::hash<std::string>()(words)) + "#" + words),
             ExplorerState())

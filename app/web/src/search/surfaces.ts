@@ -1,12 +1,15 @@
 // The surface of an isovalue at a step: which chunks hold it, what they need, their cells and triangles.
 import type { ArrayOfIndex, IndexFile, StepEntry } from "../reader/index_file";
 import { TYPES } from "../reader/index_file";
+import { SLICE_ROW, type SliceValues } from "../messages";
 import type { Range } from "../reader/ranges";
 
 const AROUND = 27;
 const OWN = 13;
 const ALL_BRICKS = 0xffffffff;
 const ALL_AROUND = 0x7ffffff;
+/** Values of a slice: what a picture of rows of SLICE_ROW holds on every GPU. */
+const MOST_SLICE_VALUES = SLICE_ROW * SLICE_ROW;
 /** Values of chunks that are kept unpacked, in bytes. */
 const MOST_KEPT = 256 << 20;
 /** Records that are kept as they were read, in bytes. */
@@ -106,6 +109,8 @@ export class Surfaces {
     for (let layer = 0; layer < this.counts[2]; ++layer) {
       const own = bytes!.subarray(layer * length, (layer + 1) * length);
       if (own.length !== length) throw this.damaged(step, "tables are missing");
+      if (!this.withBytes([own], (at) => this.file.module.calls.check_table(this.volume, at)))
+        throw this.damaged(step, `the checksum of the table of layer ${layer} does not match`);
       const view = new DataView(own.buffer, own.byteOffset, own.length);
       let end = entry.offset + Number(view.getBigUint64(8, true));
       const table: Table = { bytes: own, offsets: [], since: [] };
@@ -223,6 +228,60 @@ export class Surfaces {
     } finally {
       module.give(first);
       if (second) module.give(second);
+    }
+  }
+
+  /**
+   * The values on a plane at a step or between two, of only the chunks that it cuts.
+   * @param plane a point on it, less the grid's origin, and its unit normal
+   * @return null: it cuts nothing
+   */
+  async slice(step: number, fraction: number, plane: readonly number[], stop?: AbortSignal): Promise<SliceValues | null> {
+    const { module } = this.file;
+    const { calls } = module;
+    const { info } = this.array;
+    const steps = fraction > 0 ? [step, step + 1] : [step];
+    calls.set_colors(this.volume, fraction);
+    const at = module.put(new Uint8Array(Float64Array.of(...plane, info.low, info.high).buffer));
+    const count = calls.slice(this.volume, at, MOST_SLICE_VALUES);
+    module.give(at);
+    if (count < 0) throw new Error(`${this.file.source.name}: a slice of more than ${MOST_SLICE_VALUES} values`);
+    if (count === 0) return null;
+    const out = module.take(32);
+    const parts = (): number[] => {
+      calls.sliced(this.volume, out);
+      return [...module.words(out, 8)];
+    };
+    try {
+      const needed = module.words(parts()[0]!, 2 * count).slice();
+      const chunks = Array.from({ length: count }, (_, i): [number, number] => [needed[2 * i]!, needed[2 * i + 1]!]);
+      await Promise.all(steps.map((each) => this.readChunks(each, chunks, stop)));
+      let began = performance.now();
+      for (const [layer, place] of chunks) {
+        if (performance.now() - began > MOST_AT_ONCE) {
+          await newerWishes();
+          began = performance.now();
+        }
+        stop?.throwIfAborted();
+        const [now, next] = steps.map((each) => this.unpacked(this.home(each, layer, place), layer, place)) as [number, number?];
+        calls.slice_chunk(this.volume, layer, place, now, next ?? 0);
+      }
+      const [, columns, shares, outline, columnCount, shareCount, outlineCount, axis] = parts() as [number, number, number, number, number, number, number, number];
+      const rows = (words: number) => SLICE_ROW * Math.ceil(words / SLICE_ROW);
+      const made: SliceValues = {
+        axis,
+        whole: [info.low, info.high],
+        columns: new Uint32Array(2 * rows(columnCount)),
+        shares: new Float32Array(rows(shareCount)),
+        outline: new Float32Array(calls.memory.buffer, outline, outlineCount).slice(),
+        ...this.array.levels[this.level]!,
+      };
+      made.columns.set(module.words(columns, 2 * columnCount));
+      made.shares.set(new Float32Array(calls.memory.buffer, shares, shareCount));
+      return made;
+    } finally {
+      module.give(out);
+      this.forget();
     }
   }
 

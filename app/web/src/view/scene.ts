@@ -2,11 +2,12 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Surface } from "../link";
-import type { Found } from "../messages";
+import type { Found, SliceValues } from "../messages";
 import type { Info } from "../reader/index_file";
 import type { Key } from "../story/story";
 import { STORY_MOVE, Way, type Sight } from "../story/way";
 import { Headset, type HeadsetWishes } from "./headset";
+import { Slices, type SliceLook } from "./slices";
 import { Ticks } from "./ticks";
 
 /** Camera: place and target in one list of numbers, for links. */
@@ -26,6 +27,7 @@ export class Scene {
   private way: { way: Way; began: number | null } | null = null;
   private inside: Headset | null = null;
   private readonly surfaces: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>[] = [];
+  private readonly slices = new Slices();
   private box: THREE.LineSegments | null = null;
   private wanted = false;
   private looks: readonly Surface[] = [];
@@ -52,6 +54,7 @@ export class Scene {
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
     key.position.set(-0.6, 0.8, 1);
     this.camera.add(key);
+    this.world.add(this.slices.group);
     this.scene.add(this.world, this.camera, new THREE.HemisphereLight(0xffffff, 0x303440, 1.1));
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
@@ -195,6 +198,12 @@ export class Scene {
       surface.material.vertexColors = Boolean(own);
     });
     this.look(this.looks);
+  }
+  /** Shows slices of an array with this grid. */
+  slice(values: readonly SliceValues[], info: Info, look: SliceLook): void {
+    this.slices.show(values, info.direction);
+    this.slices.look(look);
+    this.draw();
   }
   /** How the surfaces look: opaque ones are drawn first, and what is behind a translucent one is seen. */
   look(looks: readonly Surface[]): void {

@@ -81,7 +81,7 @@ Triangles<Number> unpacked(const index::CellMesh& mesh, const index::Grid& grid,
             result.normals.push_back(static_cast<float>(normal[axis]));
     }
     result.values = mesh.values;
-    result.faces = mesh.triangles;
+    result.faces.assign(mesh.triangles.begin(), mesh.triangles.end());
     if (glm::determinant(grid.direction) < 0)
         for (std::size_t i = 0; i + 2 < result.faces.size(); i += 3)
             std::swap(result.faces[i + 1], result.faces[i + 2]);

@@ -65,11 +65,13 @@ glm::vec2 state_chip(const PanelModel& model, const PanelBox& picture, bool& ope
                                  ? StateWords{short_words(model.notes.empty->why), false}
                                  : state_words(model.frame, model.asked.quality);
     ImGui::SetNextWindowPos({picture.low.x + kMargin, picture.low.y + kMargin});
+    const float height = 26.0f, text = ImGui::CalcTextSize(state.words.c_str()).x;
+    const float width = text + 34.0f;
+    ImGui::SetNextWindowContentSize(
+        {width, height}); // words that grow are whole in their first frame
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
     ImGui::Begin("###chip", nullptr, kFixed | ImGuiWindowFlags_NoBackground);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float height = 26.0f, text = ImGui::CalcTextSize(state.words.c_str()).x;
-    const float width = text + 34.0f;
     if (ImGui::InvisibleButton("state", {width, height}))
         open = !open;
     ImDrawList& list = *ImGui::GetWindowDrawList();

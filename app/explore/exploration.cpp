@@ -345,14 +345,19 @@ void Exploration::show_models() {
     session_->set_state(state);
 }
 
-/// From its first step.
+/// From its first step, or from the one that a link tells, whose view may have been moved.
 void Exploration::tell_story() {
     const StoryFile story = read_story(*options_.story);
     const std::size_t steps = file_->info().steps();
     expect_fit(story.keys, *options_.story, *session_, steps);
     ExplorerState told = session_->state();
     told.keys = story.keys;
-    told.story = interaction::story_step(story.keys, 0).next;
+    if (options_.told > 0)
+        told.story = interaction::story_step(story.keys, options_.told - 1).next;
+    if (told.story == 0)
+        told.story = interaction::story_step(story.keys, 0).next;
+    if (options_.told > 0 && of_link_.contains("view"))
+        return session_->set_state(told);
     told.apply(
         interaction::way_to_key(told.keys[told.story - 1], told,
                                 {config_.installation.viewers.front().position, {1, 0, 0, 0}}),

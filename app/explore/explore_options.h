@@ -25,7 +25,8 @@ struct ExploreOptions {
     std::string screenshots = ".";
     std::vector<std::string> models; ///< files of triangles
     std::optional<std::string> session;
-    std::optional<std::string> story; ///< file of the story that is told
+    std::optional<std::string> story; ///< file or link of the story that is told
+    std::uint32_t told = 0; ///< key of the story that is told first, from 1; 0: its first step
     bool force = false, resume = false, follow = false;
     bool no_panel = false, emulate = false, list_devices = false, test_pattern = false;
 };

@@ -16,6 +16,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <filesystem>
 #include <utility>
 #include <vector>
@@ -38,6 +40,7 @@ ExploreOptions begun_anew(ExploreOptions options) {
     options.step.reset();
     options.session.reset();
     options.story.reset();
+    options.told = 0;
     options.report.reset();
     options.resume = false;
     return options;
@@ -74,6 +77,20 @@ bool is_index_name(const std::vector<std::string>& files) {
     return fs::path(files.front()).extension() == ".isochron" || index::is_index(files.front());
 }
 
+/// The story that a link tells, and the key that it tells.
+ExploreOptions with_linked_story(ExploreOptions options) {
+    const std::string& link = options.sources.files.front();
+    auto view = index::settings_of_link(link);
+    const std::string name = view["story"], said = view["told"];
+    std::uint32_t told = 0;
+    const auto read = std::from_chars(said.data(), said.data() + said.size(), told);
+    if (read.ptr != said.data() + said.size() || told == 0 || !index::is_plain_name(name))
+        return options;
+    options.story = index::beside(link, name);
+    options.told = told;
+    return options;
+}
+
 ExploreOptions with_index(ExploreOptions options) {
     options.sources = with_path_within(std::move(options.sources));
     set_up_readers(options.sources);
@@ -86,6 +103,8 @@ ExploreOptions with_index(ExploreOptions options) {
         options.story = files.front();
         files.front() = data_of_story(files.front());
     }
+    if (files.size() == 1 && index::is_link(files.front()) && !options.story)
+        options = with_linked_story(std::move(options));
     if (options.story)
         read_story(*options.story); // refused before a window opens
     options.data_name = files.front();

@@ -6,6 +6,7 @@
 #include "app/telling.h"
 #include "index/file/index_series.h"
 #include "index/shell_word.h"
+#include "index/system/byte_source.h"
 #include "index/system/input_file.h"
 #include "index/system/links/link.h"
 #include "interaction/error.h"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <span>
 #include <string_view>
 
 #include <unistd.h>
@@ -73,7 +75,16 @@ StoryFile story_in(const std::string& text, const std::string& name) {
 }
 
 StoryFile read_story(const fs::path& file) {
-    return story_in(index::read_text(file, kLargestStory), file.string());
+    const std::string& name = file.native();
+    if (!index::is_link(name))
+        return story_in(index::read_text(file, kLargestStory), name);
+    const auto bytes = index::open_bytes(file);
+    if (bytes->size() > kLargestStory)
+        throw interaction::Error(fmt::format("{}: no story: expected at most {} bytes, got {}",
+                                             name, kLargestStory, bytes->size()));
+    std::string text(bytes->size(), '\0');
+    bytes->read(0, std::as_writable_bytes(std::span(text)));
+    return story_in(text, name);
 }
 
 bool is_story_name(const std::string& file) {

@@ -26,6 +26,7 @@ struct StoryFile {
 /// @param name for messages
 /// @throws interaction::Error in one line: no keys, none with a text, keys that open other files, ...
 StoryFile story_in(const std::string& text, const std::string& name);
+/// @param file of this machine, or a link to one
 /// @throws as `story_in`; index::Error when the file cannot be read
 StoryFile read_story(const std::filesystem::path& file);
 

@@ -1,5 +1,8 @@
 // Indices by links: what the program finds through a web server is what it finds in the file, whatever the server
 // does; or it ends in one line.
+#include "app/explore/explored_data.h"
+#include "app/explore/story_file.h"
+#include "index/error.h"
 #include "tests/app/commands/command_line.h"
 #include "tests/support/child_process.h"
 #include "tests/support/web_server.h"
@@ -298,6 +301,35 @@ TEST_F(Links, EndSoonAfterCtrlC) {
     const auto begun = std::chrono::steady_clock::now();
     EXPECT_NE(isochron(query, {.interrupt_after = "opened"}).status, 0);
     EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(4));
+}
+
+TEST(LinkedStory, IsToldFromTheKeyOfTheLinkAndRefusedBeforeAWindowOpens) {
+    const std::string story = R"({"format": "isochron keys", "version": 1, "keys": [)"
+                              R"({"time": 0, "text": "One."}, {"time": 2, "text": "Two."}]})";
+    const WebServer server([&](const Asked& asked) {
+        return asked.path == "/a%20tour.isochron-story"
+                   ? ranges_of_file(asked, story, tag_of(story))
+                   : "HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n";
+    });
+    const auto asked_by = [&](const std::string& words) {
+        ExploreOptions options;
+        options.sources.files = {server.address() + "a.isochron#" + words};
+        return with_index(options);
+    };
+    const ExploreOptions told = asked_by("isovalue=3&story=a%20tour.isochron-story&told=2");
+    EXPECT_EQ(told.story, server.address() + "a%20tour.isochron-story");
+    EXPECT_EQ(told.told, 2u);
+    EXPECT_EQ(read_story(*told.story).keys.size(), 2u);
+    for (const char* const words :
+         {"isovalue=3&story=a%20tour.isochron-story&told=0", "story=a%20tour.isochron-story",
+          "told=1", "told=-1&story=a%20tour.isochron-story", "told=1&story=..%2Fa%20tour"})
+        EXPECT_FALSE(asked_by(words).story) << words;
+    try {
+        asked_by("story=gone.isochron-story&told=1");
+        FAIL();
+    } catch (const index::Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("gone.isochron-story"));
+    }
 }
 
 TEST_F(Links, AllCommandsThatReadAnIndexTakeThem) {

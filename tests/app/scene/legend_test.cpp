@@ -74,26 +74,32 @@ TEST_P(LegendTest, HasNoBoxOnAnyBackgroundButHalosOfItsColor) {
 
 TEST_P(LegendTest, IsNotNeededForOneSurfaceAndListsSeveral) {
     const std::vector<interaction::Isosurface> one(1), two{{1, {1, 0, 0}, 1}, {2, {0, 1, 0}, 1}};
-    EXPECT_TRUE(legend_quads({one, "K", {}}, text_, {1000, 1000}).empty());
-    const auto quads = legend_quads({two, "K", {}}, text_, {1000, 1000});
+    EXPECT_TRUE(
+        legend_quads({.surfaces = one, .value_unit = "K", .scales = {}}, text_, {1000, 1000})
+            .empty());
+    const auto quads =
+        legend_quads({.surfaces = two, .value_unit = "K", .scales = {}}, text_, {1000, 1000});
     for (const auto& surface : two)
         EXPECT_TRUE(std::ranges::any_of(
             quads, [&](const ScreenQuad& quad) { return glm::vec3(quad.color) == surface.color; }));
     auto hidden = two;
     hidden.back().opacity = 0;
-    EXPECT_TRUE(legend_quads({hidden, "K", {}}, text_, {1000, 1000}).empty());
+    EXPECT_TRUE(
+        legend_quads({.surfaces = hidden, .value_unit = "K", .scales = {}}, text_, {1000, 1000})
+            .empty());
 }
 
 TEST_P(LegendTest, ListsGhostsByTimeAlsoOfOneSurface) {
     const std::vector<interaction::Isosurface> one(1);
     Legend legend{.surfaces = one, .value_unit = "K", .scales = {}};
-    legend.ghosts = {{{0, 0, 1}, "step 3, earlier"}, {{1, 0.5f, 0}, "step 9, later"}};
+    legend.ghosts = {{glm::vec3(0, 0, 1), "step 3, earlier"},
+                     {glm::vec3(1, 0.5f, 0), "step 9, later"}};
     const auto quads = legend_quads(legend, text_, {640, 480});
     const auto patch = [&](const glm::vec3& color) {
         return std::ranges::find_if(
             quads, [&](const ScreenQuad& quad) { return glm::vec3(quad.color) == color; });
     };
-    const auto earlier = patch(legend.ghosts[0].color), later = patch(legend.ghosts[1].color);
+    const auto earlier = patch(*legend.ghosts[0].color), later = patch(*legend.ghosts[1].color);
     ASSERT_TRUE(earlier != quads.end() && later != quads.end());
     EXPECT_LT(earlier->high.y, later->low.y);
     EXPECT_EQ(earlier->low.x, later->low.x);
@@ -111,7 +117,8 @@ TEST_P(LegendTest, SaysWhichArrayTheIsovaluesAreOfWhereColorsAreAnothers) {
     legend.scales.clear(); // patches of color tell then
     legend.colored = false;
     EXPECT_EQ(legend_quads(legend, text_, {1000, 1000}).size(),
-              legend_quads({two, "K", {}}, text_, {1000, 1000}).size());
+              legend_quads({.surfaces = two, .value_unit = "K", .scales = {}}, text_, {1000, 1000})
+                  .size());
 }
 
 TEST(ColorScales, GoByLogarithmsWhereValuesAreAboveZero) {

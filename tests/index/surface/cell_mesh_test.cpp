@@ -245,16 +245,20 @@ std::set<std::array<CutEdge, 3>> triangles_of(const CellMesh& mesh) {
     return triangles;
 }
 
+/// By one thread where there are few vertices, and by all.
 TEST(CellMesh, PartsSideBySideBecomeTheMeshThatOneMakes) {
     std::mt19937 random(test_seed());
-    const TestField field({24, 25, 60}, 1, ValueType::u8, scaled(white_noise(random), 60, 62));
-    const StepValues values = field.view();
-    const Query query{Instant(0), 60.5};
-    const CellMesh one = mesh_of(values, query);
-    for (const std::size_t makers : {2u, 7u}) {
-        const CellMesh many = mesh_of(values, query, makers);
-        EXPECT_TRUE(many == one);
-    }
+    for (const std::array<std::uint32_t, 3> size : {std::array{24u, 25u, 60u}, {48u, 49u, 40u}})
+        for (const bool noise : {true, false}) {
+            const TestField field(size, 1, ValueType::u8,
+                                  noise ? scaled(white_noise(random), 60, 62)
+                                        : scaled(turbulence(random), 60, 62));
+            const StepValues values = field.view();
+            const Query query{Instant(0), 60.5};
+            const CellMesh one = mesh_of(values, query);
+            for (const std::size_t makers : {2u, 7u})
+                EXPECT_TRUE(mesh_of(values, query, makers) == one) << size[0] << " " << noise;
+        }
 }
 
 TEST(CellMesh, AMakerForgetsTheMeshesBefore) {

@@ -141,9 +141,9 @@ test("sticks change time and isovalue, and leaving gives the page back", async (
   await page.waitForFunction(() => !location.hash.includes("step=0"), null, { polling: 50 }); // it goes round
   await act("headset.controllers.right.updateAxis('thumbstick', 'x-axis', 0);");
   await act("headset.controllers.right.updateAxis('thumbstick', 'y-axis', 1);");
-  const less = () => Number(new URLSearchParams(location.hash.slice(1)).get("isovalue")) < 9.5; // links follow a little later
-  await page.waitForFunction(less, null, { polling: 50 });
   await act("headset.controllers.right.updateAxis('thumbstick', 'y-axis', 0);");
+  const less = () => Number(new URLSearchParams(location.hash.slice(1)).get("isovalue")) < 9.5;
+  await page.waitForFunction(less, null, { polling: 50 }); // the link follows once nothing changes
   const isovalue = Number(new URLSearchParams((await page.evaluate("location.hash") as string).slice(1)).get("isovalue"));
   expect(isovalue).toBeGreaterThan(0);
   await page.evaluate("headset.activeSession.end()");

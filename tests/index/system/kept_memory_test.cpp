@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 namespace isochron::index {
@@ -39,6 +40,16 @@ TEST_F(KeptMemory, GoesBackToTheSystemOnceIfItIsNotInUse) {
     EXPECT_GE(free_kept(), 2 * kLarge);
     EXPECT_EQ(free_kept(), 0);
     EXPECT_EQ(std::ranges::count(used, 7), kLarge);
+}
+
+TEST_F(KeptMemory, IsHalfAGibibyteAtMost) {
+    constexpr std::size_t kQuarter = 256 << 20, kCount = 4;
+    std::array<void*, kCount> blocks{};
+    for (void*& block : blocks)
+        block = take_kept(kQuarter); // never touched
+    for (void* const block : blocks)
+        give_back_kept(block, kQuarter);
+    EXPECT_EQ(free_kept(), 2 * kQuarter);
 }
 
 TEST_F(KeptMemory, AVectorThatGrowsKeepsItsValues) {

@@ -85,10 +85,15 @@ void heads_without_tracker(const CheckedRoom& room, const Tell& tell) {
     }
 }
 
-/// A tracker that tracks no head.
+/// A tracker that tracks no head. A box of buttons alone leaves the head to the mouse.
 void trackers_without_head(const CheckedRoom& room, const Tell& tell) {
     const auto devices = listed(room);
     if (!devices.empty() && !room.config().openxr.enabled && is_head(room, "head") &&
+        std::ranges::any_of(devices,
+                            [&](const ListedDevice& device) {
+                                return device.options.has_pose ||
+                                       is_head(room, device.options.name);
+                            }) &&
         std::ranges::none_of(devices, [&](const ListedDevice& device) {
             return device.options.has_pose && is_head(room, device.options.name);
         }))
@@ -203,12 +208,14 @@ void each_listener(const CheckedRoom& room, Visit&& visit) {
     });
 }
 
+/// Whether an address stands for all of this machine.
+bool is_any(const std::string& address) {
+    return address == "0.0.0.0" || address == "::";
+}
+
 /// Whether one of two addresses also receives what is sent to the other.
 bool overlap(const interaction::Endpoint& a, const interaction::Endpoint& b) {
-    const auto any = [](const std::string& address) {
-        return address == "0.0.0.0" || address == "::";
-    };
-    return a.port == b.port && (a.address == b.address || any(a.address) || any(b.address));
+    return a.port == b.port && (a.address == b.address || is_any(a.address) || is_any(b.address));
 }
 
 void ports_taken_twice(const CheckedRoom& room, const Tell& tell) {
@@ -267,7 +274,12 @@ void unlikely_addresses(const CheckedRoom& room, const Tell& tell) {
         if (is_of_many(own) && own != "0.0.0.0")
             why = "is an address of many machines; expected this machine's";
         if constexpr (requires { tracker.from; })
-            if (tracker.from && !is_this_machine(tracker.from->address)) {
+            if (tracker.from && is_this_machine(tracker.from->address)) {
+                if (!is_this_machine(own) && !is_any(own))
+                    why = fmt::format("does not hear {}: from is the address that the tracker "
+                                      "sends from",
+                                      tracker.from->address);
+            } else if (tracker.from) {
                 if (is_of_many(tracker.from->address))
                     why = fmt::format("would hear {} alone, which is no sender: from is the "
                                       "tracker's own address",
@@ -288,15 +300,17 @@ void trackers_not_built_in(const CheckedRoom& room, const Tell& tell) {
         tell(room, missing.line, missing.text, missing.key);
 }
 
-/// Whether a rotation turns by amounts that are round in radians when they are read as degrees.
-bool looks_like_radians(const glm::quat& rotation) {
+/// The turn about each axis [degrees]. Rotations of a few degrees add up axis by axis.
+glm::vec3 turns_of(const glm::quat& rotation) {
     const glm::quat q = rotation.w < 0 ? -rotation : rotation;
     const glm::vec3 axis(q.x, q.y, q.z);
     const float sine = glm::length(axis);
-    if (sine <= 0)
-        return false;
-    // Rotations as small as these add up axis by axis.
-    const glm::vec3 degrees = axis * (glm::degrees(2 * std::atan2(sine, q.w)) / sine);
+    return sine <= 0 ? glm::vec3(0) : axis * (glm::degrees(2 * std::atan2(sine, q.w)) / sine);
+}
+
+/// Whether a rotation turns by amounts that are round in radians when they are read as degrees.
+bool looks_like_radians(const glm::quat& rotation) {
+    const glm::vec3 degrees = turns_of(rotation);
     constexpr float kRound = glm::quarter_pi<float>(), kNear = 0.02f, kFull = 6.4f;
     bool turns = false;
     for (int i = 0; i < 3; ++i) {
@@ -307,6 +321,29 @@ bool looks_like_radians(const glm::quat& rotation) {
         turns |= whole > 0;
     }
     return turns;
+}
+
+/// Whether angles are the sine of 45 degrees, as the parts of a quaternion are that turns by 90.
+bool looks_like_quaternion(const glm::quat& rotation) {
+    const glm::vec3 degrees = glm::abs(turns_of(rotation));
+    const auto is_part = [](float value) {
+        return std::abs(value - glm::one_over_root_two<float>()) < 0.003f;
+    };
+    bool turns = false;
+    for (int i = 0; i < 3; ++i) {
+        if (!is_part(degrees[i]) && degrees[i] > 0.006f)
+            return false;
+        turns |= is_part(degrees[i]);
+    }
+    return turns;
+}
+
+/// What is wrong with the unit of a rotation's angles; null: nothing.
+const char* confusion_of(const glm::quat& rotation) {
+    return looks_like_radians(rotation) ? "its angles are round in radians, and are read as degrees"
+           : looks_like_quaternion(rotation)
+               ? "its angles look like parts of a quaternion: heading, pitch, roll in degrees"
+               : nullptr;
 }
 
 /// DTrack sends millimeters, which are read as such; other sources say nothing of their unit.
@@ -356,9 +393,9 @@ void places_of_trackers(const CheckedRoom& room, const Tell& tell) {
 
 void orientations_of_trackers(const CheckedRoom& room, const Tell& tell) {
     each_tracker(room.config().devices, [&](const char* key, const auto& tracker) {
-        if (looks_like_radians(tracker.common.calibration.room_from_tracker.orientation))
-            tell(room, tracker.line, "its angles are round in radians, and are read as degrees",
-                 key);
+        if (const char* why =
+                confusion_of(tracker.common.calibration.room_from_tracker.orientation))
+            tell(room, tracker.line, why, key);
     });
 }
 
@@ -395,11 +432,47 @@ void offsets(const CheckedRoom& room, const Tell& tell) {
 
 void rotations(const CheckedRoom& room, const Tell& tell) {
     for (const ListedDevice& device : listed(room))
-        if (looks_like_radians(device.options.calibration.sensor_from_thing.orientation))
-            tell(room, device.line,
-                 fmt::format("{}: its angles are round in radians, and are read as degrees",
-                             device.options.name),
-                 device.key);
+        if (const char* why =
+                confusion_of(device.options.calibration.sensor_from_thing.orientation))
+            tell(room, device.line, fmt::format("{}: {}", device.options.name, why), device.key);
+}
+
+/// Whether a rotation is a pitch of 90 degrees, which turns axes with +Z up into axes with +Y up, or
+/// back. It follows from the tracker's axes, where a measured rotation is odd.
+bool is_upended(const glm::quat& rotation) {
+    constexpr float kExact = 0.999962f; // cosine of half a degree
+    return (rotation * glm::vec3(1, 0, 0)).x > kExact &&
+           std::abs((rotation * glm::vec3(0, 1, 0)).z) > kExact;
+}
+
+/// A wearer stands upright while the target is aligned with the tracker's axes.
+void heads_that_lie(const CheckedRoom& room, const Tell& tell) {
+    constexpr float kAlong = 0.9945f; // cosine of 6 degrees
+    each_tracker(room.config().devices, [&](const char* key, const auto& tracker) {
+        const glm::vec3 room_up =
+            glm::inverse(tracker.common.calibration.room_from_tracker.orientation) *
+            glm::vec3(0, 1, 0); // in the tracker's axes
+        const auto rotation_of = [](const auto& each) {
+            return each.device.calibration.sensor_from_thing.orientation;
+        };
+        const bool others = std::ranges::any_of(
+            tracker.devices, [&](const auto& each) { return is_upended(rotation_of(each)); });
+        for (const auto& each : tracker.devices) {
+            const glm::quat own = rotation_of(each);
+            const bool left_out = others && own == glm::quat(1, 0, 0, 0);
+            if (each.device.has_pose && is_head(room, each.device.name) &&
+                (is_upended(own) || left_out) && std::max(room_up.y, room_up.z) > kAlong &&
+                glm::dot(own * glm::vec3(0, 1, 0), room_up) < 0.5f)
+                tell(room, tracker.line,
+                     fmt::format("{}: the head is not upright when its target lies in the "
+                                 "tracker's axes: {}",
+                                 each.device.name,
+                                 room_up.z > kAlong
+                                     ? "[0, 90, 0] where the tracker has +Z up"
+                                     : "none where the tracker has +Y up, as orientation says"),
+                     key);
+        }
+    });
 }
 
 /// A marker has no orientation: the eyes would not turn with the head.
@@ -604,6 +677,7 @@ constexpr Check kOfDevices[]{
     {"*.orientation", Check::odd, tilted_trackers},
     {"*.devices.offset", Check::odd, offsets},
     {"*.devices.rotation", Check::odd, rotations},
+    {"*.devices.rotation", Check::odd, heads_that_lie},
     {"*.devices.marker", Check::odd, markers_as_heads},
     {"*.devices", Check::odd, kinds_of_devices},
     {"*.devices", Check::odd, numbers_from_one},

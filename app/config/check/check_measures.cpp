@@ -65,7 +65,8 @@ void places_of_viewers(const CheckedRoom& room, const Tell& tell) {
                                         viewer.name, away, at.y, other_unit(at.y, 0.9f, 2.1f)));
         }
         const float level = floor_level(walls), up = at.y - level;
-        const float foot = walls.empty() ? level : CheckedRoom::box_of(walls).low.y; // foot of a stage
+        const float foot =
+            walls.empty() ? level : CheckedRoom::box_of(walls).low.y; // foot of a stage
         if (up > kTallest + 0.5f || at.y - std::max(level, foot) > kTallest)
             return tell(room, line,
                         fmt::format("{}: the eyes are {:.2f} m above the floor: are position and "
@@ -92,7 +93,16 @@ void viewers_outside(const CheckedRoom& room, const Tell& tell) {
             for (const Wall* across : walls) {
                 if (wall->is_level() || glm::dot(wall->normal, across->normal) > -0.9f)
                     continue;
-                const float top = CheckedRoom::box_of(walls).high.y;
+                const Box box = CheckedRoom::box_of(walls);
+                const float top = box.high.y;
+                const glm::vec3 off =
+                    viewer.position - glm::clamp(viewer.position, box.low, box.high);
+                const float away = std::hypot(off.x, off.z);
+                if (away > std::max(box.high.x - box.low.x, box.high.z - box.low.z))
+                    return tell(room, viewer.line.number,
+                                fmt::format("{} at {} is {:.2f} m outside of walls that face each "
+                                            "other: meters in the room",
+                                            viewer.name, at_place(viewer.position), away));
                 if (viewer.position.y > top + kAbove)
                     return tell(room, viewer.line.number,
                                 fmt::format("{} at {} looks over walls that face each other and "

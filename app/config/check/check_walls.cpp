@@ -38,9 +38,15 @@ void overlapping_viewports(const CheckedRoom& room, const Tell& tell) {
         }
 }
 
+/// Projectors for one viewer; further viewers have projectors and glasses of their own.
+bool same_viewer(const Wall& a, const Wall& b) {
+    return a.place->viewport.viewer == b.place->viewport.viewer;
+}
+
 void same_eye_twice(const CheckedRoom& room, const Tell& tell) {
     each_pair(room, [&](const Wall& a, const Wall& b) {
-        if (same_place(a, b) && shows_one_eye(a) && a.window().stereo == b.window().stereo)
+        if (same_place(a, b) && same_viewer(a, b) && shows_one_eye(a) &&
+            a.window().stereo == b.window().stereo)
             tell(room, b.line(),
                  fmt::format("{} and {} have the same corners, and both show the {} eye",
                              name_of(*a.place), name_of(*b.place),
@@ -50,7 +56,7 @@ void same_eye_twice(const CheckedRoom& room, const Tell& tell) {
 
 void repeated_walls(const CheckedRoom& room, const Tell& tell) {
     each_pair(room, [&](const Wall& a, const Wall& b) {
-        if (same_place(a, b) && !(shows_one_eye(a) && shows_one_eye(b)))
+        if (same_place(a, b) && same_viewer(a, b) && !(shows_one_eye(a) && shows_one_eye(b)))
             tell(
                 room, b.line(),
                 fmt::format("{} has the same corners as {}", name_of(*b.place), name_of(*a.place)));

@@ -14,7 +14,7 @@ struct UsualValues {
 };
 
 inline constexpr UsualValues kUsualValues[]{
-    {"*.fastest", "m/s", 0.5, 60},
+    {"*.fastest", "m/s", 1, 60},
     {"*.fastest_turn", "degrees/s", 90, 20000},
     {"*.accept_jump_ms", "ms", 20, 10000},
     {"*.held_after_ms", "ms", 10, 5000},

@@ -44,6 +44,7 @@ struct Wall {
     std::string window = "stereo = \"quadbuffer\"\n"; ///< more lines of the window
     std::string screen = "";                          ///< more lines of the screen
     double pixel = 0.0025;                            ///< [m]
+    std::string viewer = "";                          ///< who sees it; empty: the only one
 };
 
 double distance(const Point& a, const Point& b) {
@@ -59,10 +60,11 @@ std::string room_of(const Point& viewer, const std::vector<Wall>& walls,
         fmt::format("version = 1\n[viewer]\nposition = {}\n{}", words(viewer), of_viewer);
     for (const Wall& wall : walls)
         text += fmt::format("[[windows]]\nname = \"{}\"\nsize = [{:.0f}, {:.0f}]\n{}"
-                            "[[windows.viewports]]\n[windows.viewports.projection]\n"
+                            "[[windows.viewports]]\n{}[windows.viewports.projection]\n"
                             "lower_left = {}\nupper_left = {}\nupper_right = {}\n{}",
                             wall.name, distance(wall.upper_left, wall.upper_right) / wall.pixel,
                             distance(wall.lower_left, wall.upper_left) / wall.pixel, wall.window,
+                            wall.viewer.empty() ? "" : "viewer = \"" + wall.viewer + "\"\n",
                             words(wall.lower_left), words(wall.upper_left), words(wall.upper_right),
                             wall.screen);
     return text;
@@ -391,7 +393,7 @@ std::vector<Mistake> mistakes_of_viewers() {
     std::vector<Mistake> all;
     for (const auto* place :
          {"[0, 17, 0]", "[0, 170, 0]", "[0, 1700, 0]", "[0, 5.6, 0]", "[0, 67, 0]", "[0, 0, 0]",
-          "[0, 0, 1.7]", "[0, 0.017, 0]", "[1.7, 0, 0]", "[0, 1.7, -1.45]"})
+          "[0, 0, 1.7]", "[0, 0.017, 0]", "[1.7, 0, 0]", "[0, 1.7, -1.45]", "[0, 1.7, 5]"})
         all.push_back({"viewer.position", place, viewer_at(place)});
     for (const auto* separation : {"0.0315", "0.0063", "6.3", "63", "2.5", "0.1", "0.0"})
         all.push_back(
@@ -464,12 +466,14 @@ std::vector<Mistake> mistakes_of_trackers() {
     each("dtrack.orientation", of_tracker,
          {"orientation = [0, -1.5708, 0]", "orientation = [1.5708, 0.7854, 0]",
           "orientation = [0, 90, 0]", "orientation = [0, 0, 90]", "orientation = [0, -9, 0]",
-          "orientation = [0, 180, 0]"});
+          "orientation = [0, 180, 0]", "orientation = [-0.7071, 0, 0]",
+          "orientation = [0, 0.707, 0.707]"});
     each("dtrack.address", of_tracker,
          {"address = \"224.0.1.5\"", "address = \"192.168.0.255\"", "from = \"192.168.0.10\"",
           "address = \"192.168.0.10\"\nfrom = \"192.168.0.10\"",
           "address = \"192.168.0.20\"\nfrom = \"0.0.0.0\"",
-          "address = \"192.168.0.20\"\nfrom = \"192.168.0.255\""});
+          "address = \"192.168.0.20\"\nfrom = \"192.168.0.255\"",
+          "address = \"192.168.0.20\"\nfrom = \"127.0.0.1\""});
     each("port", [](const auto& line) { return with(cave(), "port = 5000", line); },
          {"port = 500", "port = 50105", "port = 3883", "port = 70000"});
     each("osc.scale",
@@ -479,7 +483,14 @@ std::vector<Mistake> mistakes_of_trackers() {
          {"scale = 3.28", "scale = 1000", "scale = 0.0001"});
     each("dtrack.devices.offset", of_head, {"offset = [0, 80, -30]", "offset = [0, 0.8, -0.3]"});
     each("dtrack.devices.offset", of_wand, {"offset = [0, 0, -0.9]"});
-    each("dtrack.devices.rotation", of_head, {"rotation = [0, 1.5708, 0]"});
+    each("dtrack.devices.rotation", of_head,
+         {"rotation = [0, 1.5708, 0]", "rotation = [0, 90, 0]", "rotation = [0, -90, 0]",
+          "rotation = [0.7071, 0, 0]"});
+    each("dtrack.devices.rotation",
+         [&](const auto& line) {
+             return with(of_tracker(line), "flystick = 0", "flystick = 0\nrotation = [0, 90, 0]");
+         },
+         {"orientation = [0, -90, 0]", "orientation = [90, -90, 0]"});
     each("buttons", of_head, {"buttons = [0, 1]"});
     each("buttons", of_wand,
          {"buttons = [1, 1, 2]", "buttons = [1, 2, 4, 8]", "buttons = [16]", "buttons = [100]",
@@ -509,6 +520,8 @@ std::vector<Mistake> mistakes_of_trackers() {
          with(with(with(cave(), head, "name = \"x\""), wand, head), "name = \"x\"", wand)},
         {"dtrack.devices", "numbers from 1",
          with(with(cave(), "body = 0", "body = 1"), "flystick = 0", "flystick = 1")},
+        {"osc.devices.name", "a head without a pose",
+         powerwall("[osc]\n[[osc.devices]]\nname = \"head\"\npose = false\n")},
         {"vrpn.devices.button", "one box for both hands",
          cave("[vrpn]\n[[vrpn.devices]]\nname = \"wand\"\n" + of_box +
               "[[vrpn.devices]]\nname = \"wand2\"\n" + of_box)},
@@ -714,6 +727,16 @@ std::vector<SoundRoom> sound_rooms() {
             passive.back().name += suffix;
             passive.back().window = eye;
         }
+    std::vector<Wall> both;
+    for (const auto* viewer : {"guide", "guest"})
+        for (const auto& [suffix, eye] : {std::pair(" left", left), std::pair(" right", right)}) {
+            both.push_back({viewer + std::string(suffix),
+                            {-1.6, 0.3, -1.5},
+                            {-1.6, 2.3, -1.5},
+                            {1.6, 2.3, -1.5},
+                            eye});
+            both.back().viewer = viewer;
+        }
     std::vector<Wall> apart = box(3, 3, 3, "front left right");
     for (auto* corner : {&apart[1].lower_left, &apart[1].upper_left, &apart[1].upper_right})
         (*corner)[0] -= 0.15;
@@ -829,6 +852,13 @@ std::vector<SoundRoom> sound_rooms() {
         {"data around the viewer",
          cave("[placement]\nsize = 3\nheight = 1.5\ndistance = 0\n[comfort]\nnear_fade = [0.15, "
               "0.35]\n")},
+        {"a box of buttons alone", powerwall("[osc]\n[[osc.devices]]\nname = \"wand\"\npose = "
+                                             "false\nbuttons = [0, 1]\n")},
+        {"projectors and glasses for each of two viewers",
+         with_all(room_of({0, 1.7, 0}, both), "[viewer]\nposition",
+                  "[[viewers]]\nname = \"guest\"\nhead = \"head2\"\n[[viewers]]\nname = "
+                  "\"guide\"\nposition") +
+             kTracker + "[[dtrack.devices]]\nname = \"head2\"\nbody = 1\n"},
         {"children's eyes", with(powerwall(), "0.063", "0.052")},
     };
 }

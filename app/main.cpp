@@ -25,6 +25,7 @@ std::string version_details() {
 
 int main(int argc, char** argv) {
     using namespace isochron::app;
+    hold_standard_streams();
     remove_leftover_files(argc, argv);
     return run_program(
         {.name = "isochron",

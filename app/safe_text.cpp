@@ -103,7 +103,8 @@ SafeText SafeText::json(const nlohmann::ordered_json& value, int indent) {
 }
 
 void print_safely(const SafeText& text, std::FILE* out) {
-    fmt::print(out, "{}", text.str());
+    // What cannot be written is told at the end of the program, which looks at the stream's error.
+    std::fwrite(text.str().data(), 1, text.str().size(), out);
 }
 
 } // namespace isochron::app

@@ -36,6 +36,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -508,6 +509,15 @@ void read_words(const std::vector<std::string>& words,
     }
 }
 
+void hold_standard_streams() {
+    // Opened for reading, so that writing there goes on being an error.
+    for (int stream = ::open("/dev/null", O_RDONLY); stream >= 0; stream = ::dup(stream))
+        if (stream > STDERR_FILENO) {
+            ::close(stream);
+            return;
+        }
+}
+
 int run_program(const ProgramText& text, std::initializer_list<void (*)(Command& program)> commands,
                 int argc, const char* const* argv) {
     // A file that may not grow further (ulimit -f) is an error of the call that writes, with a line.
@@ -543,7 +553,7 @@ int run_program(const ProgramText& text, std::initializer_list<void (*)(Command&
     }
     print_result();
     // Output that did not arrive, for example on a full disk behind a redirection, is an error.
-    if (std::fflush(stdout) != 0)
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
         return fail(text.name, "the output cannot be written", 1);
     return status;
 }

@@ -126,6 +126,10 @@ class Command {
 void read_words(const std::vector<std::string>& words,
                 const std::function<void(Command& command)>& add);
 
+/// Takes the numbers of standard streams that are closed, as `2>&-` leaves them, so that no file that
+/// the program opens gets such a number and what is printed. The first call of a program.
+void hold_standard_streams();
+
 /// What a program says of itself.
 struct ProgramText {
     const char* name;

@@ -33,21 +33,24 @@ void ProgressBar::show(std::string_view name, double fraction) {
     const bool new_bar = new_phase && (of_ == Of::phase || phase_.empty());
     if (new_bar)
         start_ = now;
+    std::string text;
     if (!terminal_) {
-        fmt::print(out_, "{} ...\n", phase);
+        text = phase + " ...\n";
     } else {
         constexpr int kWidth = 24;
-        fmt::print(out_, "{}\r{:<16} [{:<{}}] {:3} %", new_bar && !phase_.empty() ? "\n" : "",
-                   phase, std::string(static_cast<std::size_t>(percent * kWidth / 100), '#'),
-                   kWidth, percent);
+        text = fmt::format(
+            "{}\r{:<16} [{:<{}}] {:3} %", new_bar && !phase_.empty() ? "\n" : "", phase,
+            std::string(static_cast<std::size_t>(percent * kWidth / 100), '#'), kWidth, percent);
         const std::chrono::duration<double> elapsed = now - start_;
         if (fraction > 0 && elapsed.count() > 0.2) {
             if (bytes_ > 0)
-                fmt::print(out_, "  {}/s", human_bytes(bytes_ * fraction / elapsed.count()));
-            fmt::print(out_, "  {} left", human_time(elapsed * (1 - fraction) / fraction));
+                text += fmt::format("  {}/s", human_bytes(bytes_ * fraction / elapsed.count()));
+            text += fmt::format("  {} left", human_time(elapsed * (1 - fraction) / fraction));
         }
-        fmt::print(out_, "\033[K"); // the line before may have been longer
+        text += "\033[K"; // the line before may have been longer
     }
+    // Where nothing can be shown, as on a full disk or a terminal that is gone, the work goes on.
+    std::fwrite(text.data(), 1, text.size(), out_);
     std::fflush(out_);
     phase_ = phase;
     percent_ = percent;

@@ -44,6 +44,7 @@ void add_generate(Command& program) {
 
 /// The messages name `isochron`, the program that the user has called.
 int main(int argc, char** argv) {
+    hold_standard_streams();
     return run_program(
         {.name = "isochron", .description = "Make demo series.", .version_details = nullptr},
         {add_generate}, argc, argv);

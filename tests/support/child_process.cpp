@@ -41,6 +41,8 @@ std::string file_contents(const fs::path& path) {
         ::alarm(static_cast<unsigned>(options.dies_after.count())); // stays active after exec
         for (const std::string& variable : options.environment)
             ::putenv(const_cast<char*>(variable.c_str()));
+        for (const int stream : options.closed)
+            ::close(stream);
         ::execv(program.c_str(), argv.data());
     }
     ::_exit(127);

@@ -20,6 +20,7 @@ struct ChildOptions {
     std::uint64_t largest_file = 0;     ///< [byte] limit of files, as on a full disk; 0: no limit
     std::string interrupt_after{};      ///< send SIGINT when stderr contains this text
     std::chrono::seconds dies_after{0}; ///< until an alarm kills it, whatever it does; 0: never
+    std::vector<int> closed{};          ///< standard streams that it begins without
     std::vector<std::string> environment{}; ///< NAME=VALUE, beside what this process has
 };
 

@@ -384,9 +384,22 @@ TEST_F(CommandLine, TheTimesOfSourcesAreInNoBytesButThoseThatThePageNames) {
 
 TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsAFailure) {
     ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
-    const ChildResult result = isochron({"info", "a.isochron"}, {.out = "/dev/full"});
-    EXPECT_EQ(result.status, 1);
-    EXPECT_THAT(result.err, HasSubstr("the output cannot be written"));
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"info", "a.isochron"}, {"info", "a.isochron", "--json"}, {"--version"}, {"--help"}}) {
+        const ChildResult result = isochron(words, {.out = "/dev/full"});
+        EXPECT_EQ(result.status, 1) << words[0];
+        EXPECT_THAT(result.err, HasSubstr("the output cannot be written"));
+    }
+}
+
+TEST_F(CommandLine, WithoutStandardStreamsNothingThatIsPrintedComesIntoAFile) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    const std::string whole = folder.read("a.isochron");
+    for (const std::vector<int>& closed : {std::vector<int>{2}, {1, 2}, {0, 1, 2}}) {
+        const ChildResult result = isochron(build_of("t*.raw"), {.closed = closed});
+        EXPECT_EQ(result.status, closed.size() == 1 ? 0 : 1); // progress is not needed, a report is
+        EXPECT_TRUE(folder.read("a.isochron") == whole) << closed.size();
+    }
 }
 
 } // namespace

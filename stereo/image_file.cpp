@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/readers/process/reader_pool.h"
+#include "index/system/input_file.h"
 #include "index/system/memory_limit.h"
 #include "index/system/module.h"
 #include "index/system/new_file.h"
@@ -98,6 +99,7 @@ Reply expect_reply(index::ReaderReply reply, const std::filesystem::path& pictur
 /// Pictures come from elsewhere, and the libraries that decode them have had faults: a process
 /// behind the fence reads them. What it says is not trusted either.
 ReadFile read_in_reader(const std::filesystem::path& path, bool pixels) {
+    index::state_of(path); // no pipe, which its reader would wait for
     picture_function<image_module::Encode>(image_module::kEncode, path); // or says what is missing
     constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;        // as the module has it
     ReadFile file;

@@ -20,7 +20,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
 #include <memory>
 #include <poll.h>
 #include <sstream>
@@ -56,7 +55,9 @@ bool is_own(const fs::path& folder) {
         return false;
     if (fs::is_empty(folder, error))
         return true;
-    std::ifstream list(folder / "site.json");
+    if (!fs::is_regular_file(folder / "site.json", error))
+        return false;
+    index::InputStream list(folder / "site.json");
     std::string words(64, '\0');
     list.read(words.data(), static_cast<std::streamsize>(words.size()));
     return words.find("\"isochron site\"") != std::string::npos;

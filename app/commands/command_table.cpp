@@ -8,6 +8,7 @@
 #include "app/telling.h"
 #include "index/error.h"
 #include "index/json_mistake.h"
+#include "index/system/input_file.h"
 #include "index/system/new_file.h"
 #include "interaction/tools/tool_table.h"
 
@@ -15,7 +16,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -119,7 +119,7 @@ void flatten(const Json& value, const std::string& name, Json& row) {
 }
 
 Json timing_rows(const fs::path& file) {
-    std::ifstream in(file);
+    index::InputStream in(file);
     Json report;
     try {
         report = Json::parse(in);
@@ -141,8 +141,8 @@ Json timing_rows(const fs::path& file) {
 }
 
 Table table_of(const fs::path& file) {
-    if (!std::ifstream(file))
-        throw index::Error(fmt::format("{}: cannot be read", file.string()));
+    index::InputFile{
+        file}; // before the formats are tried, which take an unreadable file for another
     MarkRows marks;
     if (names_format(file, "isochron recording")) {
         const interaction::Recording recording = read_recording(file);

@@ -1,15 +1,18 @@
 // A client of the control socket.
 #include "app/control/control_client.h"
 
+#include "index/error.h"
+#include "index/system/input_file.h"
 #include "interaction/error.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <utility>
 
 #include <poll.h>
@@ -30,9 +33,14 @@ constexpr const char* kSignOfLife = "sign of life"; ///< id of requests for it
 }
 
 std::string token_in(const std::filesystem::path& path) {
-    std::ifstream file(path);
+    constexpr std::uint64_t kMost = 4096; // bytes
     std::string token;
-    if (!std::getline(file, token))
+    try {
+        token = index::read_text(path, kMost);
+    } catch (const index::Error&) { // it is told below
+    }
+    token.resize(std::min(token.find('\n'), token.size()));
+    if (token.empty())
         throw interaction::Error(
             fmt::format("{}: no token can be read there; --token-file names it", path.string()));
     return token;

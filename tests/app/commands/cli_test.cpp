@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <sys/stat.h>
+
 namespace isochron::app {
 namespace {
 
@@ -393,12 +395,33 @@ TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsAFailure) {
 }
 
 TEST_F(CommandLine, WithoutStandardStreamsNothingThatIsPrintedComesIntoAFile) {
-    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    const std::string source = test_support::test_data() + "/vti/raw_plain64.vti"; // by a reader
+    const std::vector<std::string> build{"build", source, "-o", "a.isochron"};
+    ASSERT_EQ(isochron(build).status, 0);
     const std::string whole = folder.read("a.isochron");
     for (const std::vector<int>& closed : {std::vector<int>{2}, {1, 2}, {0, 1, 2}}) {
-        const ChildResult result = isochron(build_of("t*.raw"), {.closed = closed});
+        const ChildResult result = isochron(build, {.closed = closed});
         EXPECT_EQ(result.status, closed.size() == 1 ? 0 : 1); // progress is not needed, a report is
         EXPECT_TRUE(folder.read("a.isochron") == whole) << closed.size();
+    }
+}
+
+TEST_F(CommandLine, NoCommandWaitsForAPipeThatIsGivenAsAFile) {
+    for (const char* name : {"p.jsonl", "p.png", "p.pdf", "p.toml", "p.isochron", "p.vti"})
+        ASSERT_EQ(::mkfifo((folder.path() / name).c_str(), 0600), 0);
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"table", "p.jsonl"},
+                                               {"replay", "p.jsonl"},
+                                               {"reproduce", "p.png"},
+                                               {"reproduce", "p.pdf"},
+                                               {"figure", "p.toml", "-o", "f.pdf"},
+                                               {"explore", "--check-config", "p.toml"},
+                                               {"config", "import", "p.toml"},
+                                               {"verify", "p.isochron"},
+                                               {"info", "p.vti"}}) {
+        const ChildResult result = isochron(words, {.dies_after = std::chrono::seconds(20)});
+        EXPECT_EQ(result.status, 1) << words[0];
+        EXPECT_THAT(result.err, HasSubstr("not a regular file")) << words[0];
     }
 }
 

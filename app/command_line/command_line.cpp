@@ -231,12 +231,22 @@ Option Command::option(const std::string& names, T& value, const std::string& he
         std::end(kTelling))
         app_->remove_option(app_->get_option(names));
     Option added(*app_->add_option(names, value, help));
-    if constexpr (std::is_floating_point_v<Value>)
+    if constexpr (std::is_arithmetic_v<Value>)
         added.accepted_by(
-            [](const std::string& text) {
+            [](const std::string& text) -> std::string {
                 Value number{};
-                const bool bad = CLI::detail::lexical_cast(text, number) && !std::isfinite(number);
-                return bad ? fmt::format("expected a finite number, got {}", text) : std::string();
+                const bool read = CLI::detail::lexical_cast(text, number);
+                if (text.empty()) // which the library takes for 0, as of a script's unset variable
+                    return "expected a number, got nothing";
+                if constexpr (std::is_floating_point_v<Value>)
+                    return read && !std::isfinite(number)
+                               ? fmt::format("expected a finite number, got {}", text)
+                               : "";
+                long signed_number = 0;
+                return std::is_unsigned_v<Value> && !read &&
+                               CLI::detail::lexical_cast(text, signed_number)
+                           ? fmt::format("expected a whole number from 0, got {}", text)
+                           : "";
             },
             "");
     return added;

@@ -271,6 +271,12 @@ TEST_F(CommandLine, BadUsageIsStatus2) {
              {{"verify", "a.isochron", "b.isochron"}, "b.isochron: one argument too many"},
              {{"query", "a.isochron", "--isovalue", "x", "--step", "1"},
               "--isovalue: expected a number, got x"},
+             {{"query", "a.isochron", "--isovalue", "", "--step", "1"},
+              "--isovalue: expected a number, got nothing"},
+             {{"query", "a.isochron", "--isovalue", "1", "--step", ""},
+              "--step: expected a number, got nothing"},
+             {{"measure", "a.isochron", "--isovalue", "1", "--dust", "-1"},
+              "--dust: expected a whole number from 0, got -1"},
              {{"explore", "a.isochron", "--quality", "fsat"},
               "--quality: expected one of auto, fast, quality, paper, got fsat, did you mean "
               "fast?"}})

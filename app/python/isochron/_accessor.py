@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
 
 from ._arguments import Isovalues, Number, moment
 from ._build import Path, build
+from ._elsewhere import DATA, unknown
 from ._errors import ArgumentError
 from ._run import Run
 
@@ -23,6 +24,11 @@ class _Accessor:
     def build(self, out: Path, **options: Any) -> Run:
         """Indexes the array, as isochron.build(data, out, ...) does, and opens the index."""
         return build(self._data, out, **options)
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            raise unknown(self, name, DATA)
 
 
 @_of_dataset("isochron")

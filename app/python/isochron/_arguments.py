@@ -109,7 +109,7 @@ def at_time(run: Run, time: Time) -> tuple[int, int]:
         return after, 0
     if after in (0, len(times)):
         unit = f" {run.time_unit}" if run.time_unit else ""
-        raise ArgumentError(f"{run.path}: time {time}, expected {times[0]:g} to {times[-1]:g}{unit}")
+        raise ArgumentError(f"{run.path}: time {time}, expected {times[0]:.10g} to {times[-1]:.10g}{unit}")
     share = (wanted - times[after - 1]) / (times[after] - times[after - 1])
     part = round(float(share) * _WHOLE)
     return (after, 0) if part == _WHOLE else (after - 1, part)

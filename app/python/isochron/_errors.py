@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import errno
+import posixpath
 import re
+import shlex
 
 
 class Error(Exception):
@@ -47,6 +49,13 @@ _PARAMETERS = {
 }
 
 
+def _as_call(command: re.Match[str]) -> str:
+    """`isochron build data.nc -o folder/data.isochron`, as a call that writes into the working folder."""
+    source, _, out, *arrays = shlex.split(command[1])
+    named = f", array={arrays[1::2]!r}" if arrays else ""
+    return f"isochron.build({source!r}, {posixpath.basename(out)!r}{named}) makes"
+
+
 def in_parameters(text: str) -> str:
     """Options of the command line as parameters of Python: `--time-step` is `time_step`."""
 
@@ -54,6 +63,7 @@ def in_parameters(text: str) -> str:
         word = option[1]
         return _PARAMETERS.get(word, word.replace("-", "_"))
 
+    text = re.sub(r"`isochron build ([^`]*)` makes(?= an index of data$)", _as_call, text)
     text = text.replace("isochron build --array A --array B ...", "isochron.build(..., array=['A', 'B'])")
     text = re.sub(r"(?<![\w-])--(precision double|[a-z][a-z0-9]*(?:-[a-z0-9]+)*)", name, text)
     return text

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from ._elsewhere import MESH, unknown
 
 
 class Mesh(tuple[NDArray[Any], NDArray[np.uint32]]):
@@ -63,6 +65,14 @@ class Mesh(tuple[NDArray[Any], NDArray[np.uint32]]):
         a, b, c = (self.points[self.faces[:, corner]].astype(np.float64) for corner in range(3))
         return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
 
+    @property
+    def bounds(self) -> tuple[float, float, float, float, float, float]:
+        """Least and greatest place along x, y and z, as VTK orders them; NaN without a point."""
+        if not len(self.points):
+            return (float("nan"),) * 6
+        low, high = self.places.min(0), self.places.max(0)
+        return float(low[0]), float(high[0]), float(low[1]), float(high[1]), float(low[2]), float(high[2])
+
     def to_vtk(self) -> Any:
         """As vtkPolyData, in the data's coordinates, with the normals and the values that the mesh has.
 
@@ -103,6 +113,11 @@ class Mesh(tuple[NDArray[Any], NDArray[np.uint32]]):
         # Double precision where single would round the shape away.
         close = np.abs(single - placed).max(initial=0) <= 1e-6 * np.ptp(self.points, axis=0).max(initial=0)
         return single if close else placed
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            raise unknown(self, name, MESH)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _made, (self[0], self[1], self.__dict__)

@@ -17,6 +17,7 @@ from ._arguments import (
     PROFILE, Crop, Isovalues, Number, Steps, T, Time,
     clip_plane, crop_box, least_cells, moment, number, path, several, span, time_number, whole,
 )  # fmt: skip
+from ._elsewhere import RUN, unknown
 from ._errors import ArgumentError, Error, PlaceError, in_parameters, missing
 from ._html import table
 from ._mesh import Mesh
@@ -459,6 +460,7 @@ class Run:
         isovalue: Number | Isovalues,
         *,
         steps: Steps | None = None,
+        step: SupportsIndex | None = None,
         time: Time = None,
         fraction: Number | None = None,
         array: str | None = None,
@@ -484,7 +486,7 @@ class Run:
         out: a file whose name says its format: .ply, .stl, .obj, .vtp, .glb, .usda or .csv; of several steps each file
             gets a number. Or a folder with a slash at its end, with `format`.
         isovalue: one, or up to eight.
-        steps: a number, slice(first, end, stride), which counts as Python's do, or all; time, fraction: as for `cells`.
+        steps: a number, slice(first, end, stride), which counts as Python's do, or all; step: one of them; time, fraction: as for `cells`.
         array: whose surfaces; the first if none is named.
         color_by, color_map, range: another array that colors the vertices, and the values at the ends of its colors.
         double: coordinates of double precision, where the format has them.
@@ -497,6 +499,10 @@ class Run:
         """
         from ._export import export
 
+        if step is not None:
+            if steps is not None:
+                raise ArgumentError("step: expected without steps, which say the moments, too")
+            steps = step
         return export(self, os.fspath(out), isovalue, steps, time, fraction, {
             "array": array, "format": format, "color_by": color_by, "color_map": color_map, "range": range,
             "precision": "double" if double else None, "unit": unit, "rate": rate, "crop": crop, "clip": clip,
@@ -514,13 +520,18 @@ class Run:
         return decoded(dataset(self)) if decode_times else dataset(self)
 
     def render(
-        self, state: Mapping[str, Any] | str | os.PathLike[str] | None = None, *, size: tuple[SupportsIndex, SupportsIndex] = (1280, 720)
+        self,
+        state: Mapping[str, Any] | str | os.PathLike[str] | None = None,
+        *,
+        size: tuple[SupportsIndex, SupportsIndex] = (1280, 720),
+        **fields: Any,
     ) -> NDArray[np.uint8]:
         """A picture (height, width, 3) in sRGB, which the program draws without a window.
 
         state: what differs from a new session, by the keys of a recording's `start`: {"step": 7, "isovalue": 0.5,
             "look": {"background": "light", "material": "satin", "occlusion": 0.6}}; or the name of a file in which the
             program saved a session.
+        fields: the same by their names, `step=7, isovalue=0.5`, and what differs from `state`.
         """
         from ._render import render
 
@@ -530,12 +541,18 @@ class Run:
             shown = _saved_state(os.fspath(state))
         elif state is not None:
             shown = state
+        shown = {**shown, **fields}
         width, height = (whole(length, "size") for length in size)
         return render(self._place, shown, (width, height), _native.authorization_for(self._place))
 
     def close(self) -> None:
         """Closes the index; arrays that it gave stay valid."""
         self._native = None
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            raise unknown(self, name, RUN)
 
     def __len__(self) -> int:
         return self.shape[0]

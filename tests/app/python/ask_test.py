@@ -1,8 +1,11 @@
 """Moments, isovalues and arguments as people write them, and what comes back."""
 
+import ast
+import copy
 import datetime
 import os
 import pickle
+import re
 import subprocess
 import unittest
 import warnings
@@ -231,6 +234,45 @@ class More(SeriesTest):
             number = np.ravel_multi_index(first, blended.shape)
             self.assertIn(number, self.run_.cells(isovalue, time=blended[first] + 1e-9, array=array))
             self.assertNotIn(number, self.run_.cells(isovalue, time=max(0, blended[first] - 0.5 / 65536), array=array))
+
+    def test_names_of_other_packages_lead_to_ours(self):
+        mesh = self.run_.mesh(0.5, array="depth")
+        data = self.run_.to_xarray().depth
+        for thing, name, ours in (
+            (mesh, "n_points", "len(mesh.points)"),
+            (mesh, "plot", "mesh.to_pyvista().plot()"),
+            (mesh, "save", "run.export"),
+            (self.run_, "contour", "run.mesh"),
+            (self.run_, "sel", "run.to_xarray()"),
+            (data.isochron, "contour", "data.isochron.mesh"),
+        ):
+            with self.assertRaisesRegex(AttributeError, f"has no attribute '{name}': here it is {re.escape(ours)}"):
+                getattr(thing, name)
+        with self.assertRaisesRegex(AttributeError, "has no attribute 'nonsense'$"):
+            mesh.nonsense
+        self.assertFalse(hasattr(self.run_, "__array__"))
+        copied = copy.deepcopy(mesh)
+        np.testing.assert_array_equal(copied.points, mesh.points)
+
+    def test_bounds_are_as_vtk_has_them(self):
+        mesh = self.run_.mesh(0.5, array="depth")
+        np.testing.assert_allclose(mesh.bounds, mesh.to_vtk().GetBounds(), rtol=1e-7)
+        self.assertTrue(np.isnan(self.run_.mesh(99, array="depth").bounds).all())
+
+    def test_data_that_are_no_index_are_told_with_the_call_that_makes_one(self):
+        os.makedirs("of others", exist_ok=True)
+        with open("of others/it's.nc", "w") as file:
+            file.write("no index")
+        with self.assertRaises(isochron.Error) as refused:
+            isochron.open("of others/it's.nc")
+        call = re.search(r"isochron\.build\((.*)\) makes an index of data$", str(refused.exception))
+        self.assertEqual(ast.literal_eval(f"({call[1]})"), ("of others/it's.nc", "it's.isochron"))
+
+    def test_an_export_may_be_of_one_step(self):
+        said = self.run_.export("one.ply", 0.5, step=np.int64(2), array="depth")
+        self.assertEqual((said["files"], said["steps"]), (["one.ply"], [2]))
+        with self.assertRaisesRegex(isochron.ArgumentError, "step: expected without steps"):
+            self.run_.export("one.ply", 0.5, step=1, steps=2)
 
     def test_exports_are_those_of_the_program(self):
         asked = {"array": "depth", "crop": {"x": slice(2, 9)}, "normals": False, "double": True}

@@ -34,6 +34,11 @@ class Render(SeriesTest):
         steps = np.array([0, 2])
         np.testing.assert_array_equal(self.picture(step=steps.max()), self.picture(step=2))
 
+    def test_fields_may_be_named(self):
+        shown = {"array": "depth", "bounding_box": False, "step": 0}
+        named = self.run_.render(shown, size=SIZE, isovalue=0.6, step=2)
+        np.testing.assert_array_equal(named, self.picture(step=2))
+
     def test_a_saved_session_says_what_is_shown(self):
         state = {"array": "depth", "isovalue": 0.6, "bounding_box": False, "step": 1}
         with open("kept.isochron-session", "w") as file:

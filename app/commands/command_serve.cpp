@@ -249,6 +249,7 @@ void add_serve(Command& program) {
     command.footer(
         "The page reads ranges of the files and searches in the browser; the server only "
         "sends bytes of these files. docs/guide/sharing.md says what other servers need.");
+    command.exit_status(0, "done, also when Ctrl-C ends serving");
     command.on_run([arguments] { run_serve(*arguments); });
 }
 

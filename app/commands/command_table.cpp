@@ -141,8 +141,7 @@ Json timing_rows(const fs::path& file) {
 }
 
 Table table_of(const fs::path& file) {
-    index::InputFile{
-        file}; // before the formats are tried, which take an unreadable file for another
+    expect_recording(file); // or another file that is there
     MarkRows marks;
     if (names_format(file, "isochron recording")) {
         const interaction::Recording recording = read_recording(file);

@@ -10,7 +10,19 @@
 
 namespace isochron::app {
 
+void expect_recording(const std::filesystem::path& path) {
+    std::filesystem::path part = path;
+    part += ".part";
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored) && std::filesystem::exists(part, ignored))
+        throw interaction::Error(fmt::format("{}: there is no such file, but {}: a recording that "
+                                             "was cut short, which can be used in its place",
+                                             path.string(), part.filename().string()));
+    index::InputFile{path};
+}
+
 interaction::Recording read_recording(const std::filesystem::path& path) {
+    expect_recording(path);
     index::InputStream file(path);
     if (const int first = file.peek(); first != EOF && first != '{')
         throw interaction::Error(fmt::format(

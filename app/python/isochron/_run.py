@@ -40,6 +40,8 @@ class Run:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self._path = _native.address_of(os.fspath(path))
+        if "\0" in self._path:
+            raise ArgumentError("path: expected no null character")
         self._native: _native.OpenRun | None = _native.OpenRun(self._path)
         self._place = self._path if _native.is_link(self._path) else os.path.abspath(self._path)
         self._names = tuple(self._native.names())

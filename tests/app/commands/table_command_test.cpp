@@ -49,6 +49,21 @@ TEST_F(TableCommand, MarksOfARecordingAreRowsInTheOrderOfTime) {
     EXPECT_EQ(rows[4].at("name"), "here, \"now\"");
 }
 
+TEST_F(TableCommand, ARecordingThatWasCutShortIsNamedWhereTheWholeOneIsMissing) {
+    folder.write("walk.jsonl.part", kWalk);
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"table", "walk.jsonl"},
+                                               {"replay", "walk.jsonl", "--stamps", "-o", "p"},
+                                               {"movie", "walk.jsonl", "-o", "m.mp4"}}) {
+        const ChildResult result = isochron(words);
+        EXPECT_EQ(result.status, 1) << words[0];
+        EXPECT_THAT(result.err, HasSubstr("walk.jsonl: there is no such file, but walk.jsonl.part: "
+                                          "a recording that was cut short"))
+            << words[0];
+    }
+    EXPECT_EQ(table_of({"walk.jsonl.part"}).substr(0, 5), "what,");
+}
+
 TEST_F(TableCommand, EachRulerOfAListHasItsRowsOnceAndAnAngleItsDegrees) {
     folder.write(
         "walk.jsonl",
@@ -101,7 +116,7 @@ TEST_F(TableCommand, WhatIsNeitherIsRefusedInALine) {
     folder.write("broken.json", "{\"a\":");
     for (const auto& [name, said] : {std::pair("other.json", "expected a recording, a session or"),
                                      std::pair("broken.json", "not JSON at byte"),
-                                     std::pair("missing.json", "cannot be read")}) {
+                                     std::pair("missing.json", "there is no such file")}) {
         const ChildResult result = isochron({"table", name});
         EXPECT_EQ(result.status, 1);
         EXPECT_THAT(result.err, HasSubstr(said)) << name;

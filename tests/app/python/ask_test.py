@@ -267,6 +267,8 @@ class More(SeriesTest):
             isochron.open("of others/it's.nc")
         call = re.search(r"isochron\.build\((.*)\) makes an index of data$", str(refused.exception))
         self.assertEqual(ast.literal_eval(f"({call[1]})"), ("of others/it's.nc", "it's.isochron"))
+        with self.assertRaisesRegex(isochron.ArgumentError, "path: expected no null character"):
+            isochron.open("a\0.isochron")
 
     def test_an_export_may_be_of_one_step(self):
         said = self.run_.export("one.ply", 0.5, step=np.int64(2), array="depth")

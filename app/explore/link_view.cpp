@@ -1,10 +1,14 @@
 // Reads and writes the settings in links.
 #include "app/explore/link_view.h"
 
+#include "app/config/first_placement.h"
+#include "interaction/tools/clip_box.h"
+#include "interaction/tools/plane_hold.h"
 #include "render/passes/color_map.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -17,6 +21,8 @@ namespace isochron::app {
 namespace {
 
 using Words = std::map<std::string, std::string>;
+
+constexpr std::size_t kMostLinkedCuts = 6; ///< planes that cut in a page
 
 /// Half the height of the page's picture at distance 1: its camera sees 40 degrees.
 const double kPageHalf = std::tan(glm::radians(20.0));
@@ -164,8 +170,8 @@ std::string word_of(const interaction::Isosurface& surface, const index::IndexFi
     return word;
 }
 
-/// Slices, each as x/y/z and its normal; what is none is left out.
-std::vector<interaction::Plane> planes_of(const std::string& text) {
+/// Planes, each as x/y/z and its unit normal; what is none is left out.
+std::vector<interaction::Plane> planes_of(const std::string& text, std::size_t most) {
     std::vector<interaction::Plane> planes;
     for (const std::string_view one : split(text, ',')) {
         std::string word(one);
@@ -174,10 +180,85 @@ std::vector<interaction::Plane> planes_of(const std::string& text) {
         if (n.size() != 6 || !(glm::length(glm::dvec3(n[3], n[4], n[5])) > 0))
             continue;
         planes.push_back({{n[0], n[1], n[2]}, glm::normalize(glm::dvec3(n[3], n[4], n[5]))});
-        if (planes.size() == interaction::kMostSlices)
+        if (planes.size() == most)
             break;
     }
     return planes;
+}
+
+std::string word_of(const interaction::Plane& plane) {
+    const auto& [point, normal, shown] = plane;
+    return fmt::format("{:.9g}/{:.9g}/{:.9g}/{:.7g}/{:.7g}/{:.7g}", point.x, point.y, point.z,
+                       normal.x, normal.y, normal.z);
+}
+
+/// Cuts by planes: a state has one in any direction, and others across an axis are faces of its box. Of
+/// several oblique ones the first cuts.
+void cut_by(const std::vector<interaction::Plane>& planes, const index::SeriesInfo& info,
+            ExplorerState& state) {
+    const interaction::DataFrame data = data_frame(info);
+    const auto axis_of = [&](const interaction::Plane& plane) {
+        return interaction::axis_across(plane.normal, data);
+    };
+    const auto oblique =
+        std::ranges::find_if(planes, [&](const auto& plane) { return !axis_of(plane); });
+    const auto one = oblique == planes.end() ? planes.begin() : oblique;
+    for (auto plane = planes.begin(); plane != planes.end(); ++plane) {
+        const std::optional<int> axis = axis_of(*plane);
+        if (plane == one) {
+            state.clip = {true, plane->point, plane->normal};
+        } else if (axis) {
+            interaction::ClipBox& box = state.clip_box;
+            if (!box.shown)
+                box = interaction::whole_box(data);
+            const bool high =
+                glm::dot(plane->normal, glm::dvec3(data.physical_from_box[*axis])) > 0;
+            const auto moved = interaction::with_face(box, {*axis, high}, *plane, data);
+            box.low[*axis] = std::max(box.low[*axis], moved.low[*axis]);
+            box.high[*axis] = std::min(box.high[*axis], moved.high[*axis]);
+        }
+    }
+}
+
+/// Sets what cuts the surfaces.
+void cut_as_linked(ExplorerState& state, const Words& settings, const index::SeriesInfo& info) {
+    const index::Grid& grid = info.grid;
+    const glm::dvec3 cells(grid.vertices[0] - 1.0, grid.vertices[1] - 1.0, grid.vertices[2] - 1.0);
+    // The page of earlier versions clipped at a share of an axis.
+    if (const auto clip = numbers_of(word_of(settings, "clip"));
+        clip.size() == 2 && (clip[0] == 0 || clip[0] == 1 || clip[0] == 2) && clip[1] >= 0 &&
+        clip[1] <= 1) {
+        const int axis = static_cast<int>(clip[0]);
+        glm::dvec4 at(0, 0, 0, 1), along(0);
+        at[axis] = clip[1] * cells[axis];
+        along[axis] = 1;
+        const glm::dmat4 physical = grid.physical_from_index();
+        state.clip = {true, glm::dvec3(physical * at),
+                      glm::normalize(glm::dvec3(physical * along))};
+    }
+    if (const auto n = numbers_of(word_of(settings, "box")); n.size() == 6) {
+        const glm::dvec3 none(0.0), low = glm::clamp(glm::dvec3(n[0], n[1], n[2]), none, cells),
+                                    high = glm::clamp(glm::dvec3(n[3], n[4], n[5]), none, cells);
+        if (glm::all(glm::lessThan(low, high)))
+            state.clip_box = {true, low, high};
+    }
+    std::string planes = word_of(settings, "planes");
+    if (planes.empty()) { // earlier versions wrote one plane
+        planes = word_of(settings, "plane");
+        std::ranges::replace(planes, ',', '/');
+    }
+    cut_by(planes_of(planes, kMostLinkedCuts), info, state);
+}
+
+/// The settings of what cuts the surfaces; empty: nothing does.
+std::string words_of(const interaction::ClipPlane& clip, const interaction::ClipBox& box) {
+    std::string words;
+    if (clip.shown)
+        words += "&planes=" + word_of(interaction::Plane{clip.point, clip.normal});
+    if (const auto& [shown, low, high] = box; shown)
+        words += fmt::format("&box={:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", low.x, low.y, low.z,
+                             high.x, high.y, high.z);
+    return words;
 }
 
 /// Sets the map and its range. @param map, range names of the settings
@@ -192,7 +273,7 @@ void color_as_linked(interaction::Coloring& coloring, const Words& settings, con
 
 void slice_as_linked(interaction::Slices& slices, const Words& settings,
                      const index::IndexFile& file) {
-    const auto planes = planes_of(word_of(settings, "slices"));
+    const auto planes = planes_of(word_of(settings, "slices"), interaction::kMostSlices);
     if (planes.empty())
         return;
     slices = {.planes = planes};
@@ -207,11 +288,9 @@ void slice_as_linked(interaction::Slices& slices, const Words& settings,
 /// The settings of slices; empty: none is seen.
 std::string words_of(const interaction::Slices& slices, const index::IndexFile& file) {
     std::string list;
-    for (const auto& [point, normal, shown] : slices.planes)
-        if (shown)
-            list +=
-                fmt::format("{}{:.9g}/{:.9g}/{:.9g}/{:.7g}/{:.7g}/{:.7g}", list.empty() ? "" : ",",
-                            point.x, point.y, point.z, normal.x, normal.y, normal.z);
+    for (const interaction::Plane& plane : slices.planes)
+        if (plane.shown)
+            list += (list.empty() ? "" : ",") + word_of(plane);
     if (list.empty())
         return {};
     std::string words = fmt::format("&slices={}&slicemap={}", list, slices.coloring.map);
@@ -268,22 +347,7 @@ ExplorerState as_linked(ExplorerState state, const Words& settings, const index:
         color_as_linked(state.coloring, settings, "map", "range");
     }
     slice_as_linked(state.slices, settings, file);
-    if (const auto plane = numbers_of(word_of(settings, "plane")); plane.size() == 6) {
-        const glm::dvec3 normal(plane[3], plane[4], plane[5]);
-        if (glm::length(normal) > 0)
-            state.clip = {true, {plane[0], plane[1], plane[2]}, glm::normalize(normal)};
-    }
-    if (const auto clip = numbers_of(word_of(settings, "clip"));
-        clip.size() == 2 && (clip[0] == 0 || clip[0] == 1 || clip[0] == 2) && clip[1] >= 0 &&
-        clip[1] <= 1) {
-        const int axis = static_cast<int>(clip[0]);
-        glm::dvec4 at(0, 0, 0, 1), along(0);
-        at[axis] = clip[1] * (file.info().grid.vertices[axis] - 1);
-        along[axis] = 1;
-        const glm::dmat4 physical = file.info().grid.physical_from_index();
-        state.clip = {true, glm::dvec3(physical * at),
-                      glm::normalize(glm::dvec3(physical * along))};
-    }
+    cut_as_linked(state, settings, file.info());
     if (const auto view = numbers_of(word_of(settings, "view")); view.size() == 6)
         see_as_linked(state, view, numbers_of(word_of(settings, "up")), file, screen);
     return state;
@@ -332,10 +396,7 @@ std::string link_to(const std::string& address, const ExplorerState& state,
     const glm::dmat3 upright = page_axes(glm::conjugate(seen.rotation) * back);
     if (glm::distance(up, upright[1]) > kTilted)
         link += fmt::format("&up={:.7g},{:.7g},{:.7g}", said.x, said.y, said.z);
-    if (const interaction::ClipPlane& clip = state.clip; clip.shown)
-        link +=
-            fmt::format("&plane={:.9g},{:.9g},{:.9g},{:.7g},{:.7g},{:.7g}", clip.point.x,
-                        clip.point.y, clip.point.z, clip.normal.x, clip.normal.y, clip.normal.z);
+    link += words_of(state.clip, state.clip_box);
     link += words_of(state.slices, file);
     if (state.coloring.by == interaction::ColorBy::value)
         if (const auto number = file.array_called(state.coloring.array)) {

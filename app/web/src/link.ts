@@ -12,6 +12,7 @@ export interface Surface {
 /** As many as the native program shows. */
 export const MOST_SURFACES = 8;
 export const MOST_SLICES = 3;
+export const MOST_CUTS = 6;
 
 export interface Linked {
   file?: string;
@@ -28,9 +29,12 @@ export interface Linked {
   map?: string;
   /** The ends of the color map. */
   range?: number[];
+  /** Of links of earlier versions: a clip plane across an axis. */
   clip?: [axis: number, share: number];
-  /** A clip plane in any direction: a point on it, and its normal towards what is cut away, physical space. */
-  plane?: number[];
+  /** Clip planes: of each a point, and its normal towards what is cut away, physical space. */
+  planes?: number[][];
+  /** Outside this box all is cut away: its low and its high corner as indices of vertices. */
+  box?: number[];
   /** Slices: of each a point, and its normal, physical space. */
   slices?: number[][];
   /** The array whose values they show; absent: the surfaces'. */
@@ -54,6 +58,15 @@ const numberOf = (text: string | null): number | undefined => {
   const value = text === null || text === "" ? NaN : Number(text);
   return Number.isFinite(value) ? value : undefined;
 };
+
+/** A list of planes: of each a point and its normal. */
+function planesOf(text: string | null, most: number): number[][] | undefined {
+  const planes = (text ?? "")
+    .split(",")
+    .map((word) => word.split("/").map((number) => numberOf(number) ?? NaN))
+    .filter((plane) => plane.length === 6 && plane.every(Number.isFinite) && Math.hypot(...plane.slice(3)) > 0);
+  return planes.length ? planes.slice(0, most) : undefined;
+}
 
 /** A name beside the page: no folder, no other server. */
 export const isPlain = (name: string): boolean => /^[^/\\:?#]+$/.test(name) && !name.startsWith(".");
@@ -85,19 +98,19 @@ export function linked(hash: string): Linked {
     const map = words.get(name);
     if (map && (MAP_NAMES as string[]).includes(map)) state[name] = map;
   }
-  const slices = (words.get("slices") ?? "")
-    .split(",")
-    .map((word) => word.split("/").map((number) => numberOf(number) ?? NaN))
-    .filter((plane) => plane.length === 6 && plane.every(Number.isFinite) && Math.hypot(...plane.slice(3)) > 0);
-  if (slices.length) state.slices = slices.slice(0, MOST_SLICES);
+  // Earlier versions wrote one plane, as `plane`.
+  const planes = planesOf(words.get("planes"), MOST_CUTS) ?? planesOf(words.get("plane")?.replaceAll(",", "/") ?? null, 1);
+  if (planes) state.planes = planes;
+  const slices = planesOf(words.get("slices"), MOST_SLICES);
+  if (slices) state.slices = slices;
   const clip = (words.get("clip") ?? "").split(",").map(Number);
   if (clip.length === 2 && [0, 1, 2].includes(clip[0]!) && clip[1]! >= 0 && clip[1]! <= 1) state.clip = clip as [number, number];
-  for (const [name, count] of [["view", 6], ["up", 3], ["plane", 6], ["range", 2], ["slicerange", 2]] as const) {
+  for (const [name, count] of [["view", 6], ["up", 3], ["box", 6], ["range", 2], ["slicerange", 2]] as const) {
     const numbers = (words.get(name) ?? "").split(",").map(Number);
     if (numbers.length === count && numbers.every(Number.isFinite)) state[name] = numbers;
   }
-  for (const direction of [state.up, state.plane?.slice(3)])
-    if (direction && !(Math.hypot(...direction) > 0)) delete state[direction === state.up ? "up" : "plane"];
+  if (state.up && !(Math.hypot(...state.up) > 0)) delete state.up;
+  if (state.box?.slice(0, 3).some((low, axis) => !(low < state.box![axis + 3]!))) delete state.box;
   for (const name of ["range", "slicerange"] as const) if (!(state[name]?.[0]! < state[name]?.[1]!)) delete state[name];
   for (const name of ["color", "background"] as const) {
     const value = words.get(name);
@@ -108,9 +121,13 @@ export function linked(hash: string): Linked {
 
 export function linkOf(state: Linked): string {
   const words = new URLSearchParams();
-  const { surfaces, slices, ...others } = state;
+  const { surfaces, ...others } = state;
   if (surfaces) words.set("surfaces", surfaces.map(({ isovalue, color, opacity }) => `${isovalue}/${color.slice(1)}/${opacity}`).join(","));
-  if (slices) words.set("slices", slices.map((plane) => plane.map((n) => +n.toPrecision(9)).join("/")).join(","));
+  for (const name of ["slices", "planes"] as const) {
+    const planes = others[name];
+    delete others[name];
+    if (planes) words.set(name, planes.map((plane) => plane.map((n) => +n.toPrecision(9)).join("/")).join(","));
+  }
   for (const [name, value] of Object.entries(others) as [string, unknown][])
     if (value !== undefined) words.set(name, Array.isArray(value) ? value.map((n: number) => +n.toPrecision(6)).join(",") : String(value));
   return `#${words.toString()}`;

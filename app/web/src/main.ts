@@ -1,7 +1,7 @@
 // The page: opens the index beside it, and shows the surface that the controls and the link ask for.
 import "./style.css";
 import { Vector3 } from "three";
-import { isPlain, linked, linkOf, MOST_SLICES, MOST_SURFACES, type Linked, type Surface } from "./link";
+import { isPlain, linked, linkOf, MOST_CUTS, MOST_SLICES, MOST_SURFACES, type Linked, type Surface } from "./link";
 import type { Asked, Found, FromWorker, SliceValues, ToWorker } from "./messages";
 import type { Info } from "./reader/index_file";
 import { misfit, storyAt, type Key } from "./story/story";
@@ -9,6 +9,8 @@ import { Teller } from "./story/teller";
 import { sightOf } from "./story/way";
 import { colorsOf, drawLegend, MAP_NAMES, type MapName } from "./view/colors";
 import { Histogram } from "./view/histogram";
+import { PlaneList } from "./view/plane_list";
+import { acrossAxis, boxWithin, distanceAt, nextAxis, wholeBox, type Box, type Plane } from "./view/planes";
 import { Scene } from "./view/scene";
 
 const LOOK = 2000; // milliseconds between two looks at a file that grows
@@ -43,11 +45,8 @@ const background = part<HTMLInputElement>("background");
 const between = part<HTMLInputElement>("between");
 const colorBy = part<HTMLSelectElement>("color-by");
 const map = part<HTMLSelectElement>("map");
-const clipAxis = part<HTMLSelectElement>("clip-axis");
-const clipShare = part<HTMLInputElement>("clip-share");
-const slice = part<HTMLSelectElement>("slice");
-const sliceNormal = part<HTMLInputElement>("slice-normal");
-const slicePlace = part<HTMLInputElement>("slice-place");
+const boxed = part<HTMLInputElement>("boxed");
+const boxEnds = [...part("box-parts").querySelectorAll("input")]; // low and high of each axis
 const sliceOf = part<HTMLSelectElement>("slice-of");
 const sliceMap = part<HTMLSelectElement>("slice-map");
 const isolines = part<HTMLInputElement>("isolines");
@@ -76,11 +75,9 @@ let infos: Info[] = [];
 let levels = 1;
 let asked: Asked = { array: 0, step: 0, fraction: 0, isovalues: [0], colors: null, slices: [], sliceOf: 0, alone: false };
 let range: number[] | null = null; // the ends of the color map; null: all values
-let plane: number[] | null = null; // of a clip plane that a story or a link has: a point on it, and its normal
+let box: Box | null = null; // what is outside it is cut away
 let story: Key[] | null = null;
 let badStory = ""; // why there is none
-let slices: number[][] = []; // of each a point, and its unit normal, physical space
-let pickedSlice = 0;
 let sliceRange: number[] | null = null; // the ends of their color map; null: all values
 let surfaces: Surface[] = [{ isovalue: 0, color: COLORS[0]!, opacity: 1 }];
 let picked = 0;
@@ -95,6 +92,8 @@ let later = 0; // the timer of the address
 
 const info = (): Info => infos[asked.array]!;
 const words = (value: number): string => String(+value.toPrecision(6));
+const slices = new PlaneList("slice", MOST_SLICES, info, ask);
+const clips = new PlaneList("clip", MOST_CUTS, info, clip);
 
 /** The first isovalue: above which about a fiftieth of the values lie. */
 function firstIsovalue(of: Info): number {
@@ -114,7 +113,7 @@ function ask(coarse: boolean): void {
   asked = {
     ...asked,
     isovalues: surfaces.map((each) => each.isovalue),
-    slices: slices.map((each) => each.map((n, i) => n - (origin[i] ?? 0))),
+    slices: slices.planes.map((each) => each.map((n, i) => n - (origin[i] ?? 0))),
     sliceOf: sliceOf.value === "" ? asked.array : Number(sliceOf.value),
     alone: alone.checked,
   };
@@ -127,7 +126,7 @@ function ask(coarse: boolean): void {
   say({ kind: "find", number: ++number, asked, levels: wanted });
   chip.textContent = "searching …";
   listSurfaces();
-  listSlices();
+  slices.show();
   time.step = between.checked ? "any" : "1";
   time.value = String(asked.step + asked.fraction / FRACTIONS);
   moment.textContent = momentWords();
@@ -155,69 +154,6 @@ function listSurfaces(): void {
   if (document.activeElement !== isovalue) isovalue.value = words(own.isovalue);
   color.value = own.color;
   opacity.value = String(own.opacity);
-}
-
-/** The lowest and highest distance of the data's box along a normal, and how far a cell reaches there. */
-function reachAlong(normal: readonly number[]): { low: number; high: number; cell: number } {
-  const { vertices, spacing, direction, origin } = info();
-  let low = origin.reduce((sum, n, i) => sum + n * normal[i]!, 0);
-  let high = low;
-  let cell = 0;
-  direction.forEach((column, axis) => {
-    const a_cell = column.reduce((sum, n, i) => sum + n * normal[i]!, 0) * spacing[axis]!;
-    const whole = a_cell * (vertices[axis]! - 1);
-    if (whole < 0) low += whole;
-    else high += whole;
-    cell = Math.max(cell, Math.abs(a_cell));
-  });
-  return { low, high, cell };
-}
-const along = (each: readonly number[]): number => each[0]! * each[3]! + each[1]! * each[4]! + each[2]! * each[5]!;
-
-/** Puts the slice that is picked elsewhere along its normal. */
-function placeSlice(at: number): void {
-  const each = slices[pickedSlice];
-  if (!each) return;
-  const normal = each.slice(3);
-  const { low, high } = reachAlong(normal);
-  const by = Math.min(high, Math.max(low, at)) - along(each);
-  slices[pickedSlice] = [...each.slice(0, 3).map((n, i) => n + by * normal[i]!), ...normal];
-}
-/** A slice through the middle of the data. @return null: that is no direction */
-function sliceAcross(normal: readonly number[]): number[] | null {
-  const length = Math.hypot(...normal);
-  if (normal.length !== 3 || !(length > 0) || !Number.isFinite(length)) return null;
-  const { vertices, spacing, direction, origin } = info();
-  const middle = origin.map((n, i) => n + direction.reduce((sum, column, axis) => sum + (column[i]! * spacing[axis]! * (vertices[axis]! - 1)) / 2, 0));
-  return [...middle, ...normal.map((n) => n / length)];
-}
-/** Adds a slice across the axis after that of the one that is picked. */
-function addSlice(): void {
-  const { direction } = info();
-  const normal = slices[pickedSlice]?.slice(3);
-  const before = normal ? direction.findIndex((column) => Math.abs(column.reduce((sum, n, i) => sum + n * normal[i]!, 0)) > 0.999) : 1;
-  const axis = (before + 1) % 3;
-  // At right angles to the axis, also where axes are not at right angles to each other.
-  const [a, b] = [direction[(axis + 1) % 3]!, direction[(axis + 2) % 3]!];
-  const added = sliceAcross([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]);
-  if (!added || slices.length === MOST_SLICES) return;
-  slices.push(added);
-  pickedSlice = slices.length - 1;
-  ask(false);
-}
-
-/** Shows the list of slices, and where the one is that is moved. */
-function listSlices(): void {
-  slice.replaceChildren(...(slices.length ? slices.map((_, i) => new Option(String(i + 1), String(i))) : [new Option("none", "")]));
-  slice.value = slices.length ? String(pickedSlice) : "";
-  part<HTMLButtonElement>("slice-remove").disabled = slices.length === 0;
-  part<HTMLButtonElement>("slice-add").disabled = slices.length === MOST_SLICES;
-  part("slice-parts").hidden = slices.length === 0;
-  const each = slices[pickedSlice];
-  if (!each) return;
-  if (document.activeElement !== sliceNormal) sliceNormal.value = each.slice(3).map((n) => +n.toPrecision(4) + 0).join(", ");
-  const { low, high } = reachAlong(each.slice(3));
-  if (document.activeElement !== slicePlace) slicePlace.value = String((along(each) - low) / (high - low));
 }
 
 /** Changes the surface that is picked. */
@@ -249,13 +185,14 @@ function keep(): void {
     ...(surfaces.length > 1 ? { surfaces, picked } : { color: surfaces[0]!.color, opacity: surfaces[0]!.opacity }),
     ...(scene.up ? { up: scene.up } : {}),
     ...(asked.colors === null ? {} : { colors: asked.colors, map: map.value, ...(range ? { range } : {}) }),
-    ...(slices.length
+    ...(slices.planes.length
       ? {
-          slices, slicemap: sliceMap.value, ...(sliceOf.value === "" ? {} : { sliceof: Number(sliceOf.value) }), ...(sliceRange ? { slicerange: sliceRange } : {}),
+          slices: slices.planes, slicemap: sliceMap.value, ...(sliceOf.value === "" ? {} : { sliceof: Number(sliceOf.value) }), ...(sliceRange ? { slicerange: sliceRange } : {}),
           ...(isolines.checked ? {} : { isolines: 0 }), ...(alone.checked ? { alone: 1 } : {}),
         }
       : {}),
-    ...(clipAxis.value === "plane" ? { plane: plane! } : clipAxis.value === "" ? {} : { clip: [Number(clipAxis.value), Number(clipShare.value)] as [number, number] }),
+    ...(clips.planes.length ? { planes: clips.planes } : {}),
+    ...(box ? { box } : {}),
     ...(story && state.story ? { story: state.story, told: teller.told } : {}),
   };
   history.replaceState(null, "", linkOf(state));
@@ -301,12 +238,15 @@ function paint(): void {
   if (last) scene.show(last.found, last.found.map(({ values }) => (of && values ? colorsOf(name, values, low, high) : null)));
 }
 
+/** Shows what cuts the surfaces. */
 function clip(): void {
-  const { value } = clipAxis;
-  clipShare.hidden = value === "" || value === "plane";
-  part("clip-plane").hidden = plane === null;
-  const cut = value === "plane" ? { point: plane!.slice(0, 3), normal: plane!.slice(3) } : value === "" ? null : { axis: Number(value), share: Number(clipShare.value) };
-  scene.clip(info(), cut);
+  clips.show();
+  boxed.checked = box !== null;
+  part("box-parts").hidden = box === null;
+  boxEnds.forEach((end, i) => {
+    if (box && document.activeElement !== end) end.value = words(box[(i >> 1) + 3 * (i & 1)]!);
+  });
+  scene.clip(info(), clips.planes, box);
   keepSoon();
 }
 
@@ -335,8 +275,7 @@ function showKey(key: Key): void {
     scene.background(background.value);
   }
   if (key.clip) {
-    plane = key.clip.shown ? [...key.clip.point, ...key.clip.normal] : null;
-    clipAxis.value = plane ? "plane" : "";
+    clips.set(key.clip.shown ? [[...key.clip.point, ...key.clip.normal]] : []);
     clip();
   }
   ask(false);
@@ -383,6 +322,14 @@ function grown(found: Info[]): void {
   ask(false);
 }
 
+const ofUnit = (plane: Plane): Plane => [...plane.slice(0, 3), ...plane.slice(3).map((n) => n / Math.hypot(...plane.slice(3)))];
+/** The plane of a link of earlier versions, at a share of an axis's vertices. */
+function acrossAt(axis: number, share: number): Plane {
+  const { direction, origin, vertices } = info();
+  const far = distanceAt(info(), axis, share * (vertices[axis]! - 1));
+  return [...origin.map((n, i) => n + far * direction[axis]![i]!), ...direction[axis]!];
+}
+
 function opened(found: Info[], count: number): void {
   infos = found;
   levels = count;
@@ -403,8 +350,10 @@ function opened(found: Info[], count: number): void {
   colorBy.value = asked.colors === null ? "" : String(asked.colors);
   if (state.map) map.value = state.map;
   range = state.range ?? null;
-  plane = state.plane ?? null;
-  slices = (state.slices ?? []).map((each) => [...each.slice(0, 3), ...each.slice(3).map((n) => n / Math.hypot(...each.slice(3)))]);
+  slices.set((state.slices ?? []).map(ofUnit));
+  clips.set((state.planes ?? []).map(ofUnit));
+  if (state.clip) clips.set([...clips.planes, acrossAt(...state.clip)]);
+  box = state.box ? boxWithin(info(), state.box) : null;
   sliceRange = state.slicerange ?? null;
   sliceOf.replaceChildren(new Option("as the surfaces", ""), ...infos.map((each, i) => new Option(each.array || "values", String(i))));
   sliceOf.value = state.sliceof !== undefined && state.sliceof < infos.length ? String(state.sliceof) : "";
@@ -412,17 +361,10 @@ function opened(found: Info[], count: number): void {
   if (state.slicemap) sliceMap.value = state.slicemap;
   isolines.checked = state.isolines !== 0;
   alone.checked = state.alone === 1;
-  const cut = state.clip;
   scene.frame(info());
   const place = (first: number) => new Vector3(...(view!.slice(first, first + 3) as [number, number, number]));
   if (view) scene.sight = { eye: place(0), target: place(3), up: up ? new Vector3(...(up as [number, number, number])) : new Vector3(0, 0, 1) };
   document.body.classList.add("open");
-  if (cut) {
-    clipAxis.value = String(cut[0]);
-    clipShare.value = String(cut[1]);
-  } else if (plane) {
-    clipAxis.value = "plane";
-  }
   clip();
   if (story && !badStory) {
     const why = misfit(story, infos[0]!.times.length, (name) => arrayCalled(name) >= 0);
@@ -536,7 +478,7 @@ remove.addEventListener("click", () => {
 const style = () => {
   change({ color: color.value, opacity: Number(opacity.value) });
   scene.look(surfaces);
-  if (slices.length) paintSlices();
+  if (slices.planes.length) paintSlices();
   scene.background(background.value);
   keepSoon();
 };
@@ -550,31 +492,6 @@ map.addEventListener("change", () => {
   paint();
   keep();
 });
-slice.addEventListener("change", () => {
-  pickedSlice = Number(slice.value);
-  listSlices();
-});
-part("slice-add").addEventListener("click", addSlice);
-part("slice-remove").addEventListener("click", () => {
-  slices.splice(pickedSlice, 1);
-  pickedSlice = Math.max(0, Math.min(pickedSlice, slices.length - 1));
-  ask(false);
-});
-const turnSlice = (normal: readonly number[]) => {
-  const turned = sliceAcross(normal);
-  if (!turned) return listSlices();
-  // About its own point.
-  slices[pickedSlice] = [...slices[pickedSlice]!.slice(0, 3), ...turned.slice(3)];
-  ask(false);
-};
-sliceNormal.addEventListener("change", () => turnSlice(sliceNormal.value.split(",").map(Number)));
-part("slice-axes").querySelectorAll("button").forEach((button, axis) => button.addEventListener("click", () => turnSlice([0, 1, 2].map((i) => Number(i === axis)))));
-for (const name of ["input", "change"])
-  slicePlace.addEventListener(name, () => {
-    const { low, high } = reachAlong(slices[pickedSlice]!.slice(3));
-    placeSlice(low + Number(slicePlace.value) * (high - low));
-    ask(name === "input");
-  });
 sliceOf.addEventListener("change", () => {
   sliceRange = null;
   ask(false);
@@ -585,8 +502,21 @@ for (const input of [sliceMap, isolines])
     keep();
   });
 alone.addEventListener("change", () => ask(false));
-clipAxis.addEventListener("change", clip);
-clipShare.addEventListener("input", clip);
+part("clip-flip").addEventListener("click", () => clips.now && clips.turn(clips.now.slice(3).map((n) => -n + 0)));
+boxed.addEventListener("change", () => {
+  box = boxed.checked ? wholeBox(info()) : null;
+  clip();
+});
+boxEnds.forEach((end, i) =>
+  end.addEventListener("change", () => {
+    const number = Number(end.value.replace(",", "."));
+    const place = (i >> 1) + 3 * (i & 1);
+    const moved = Number.isFinite(number) ? boxWithin(info(), box!.map((n, k) => (k === place ? number : n))) : null;
+    if (moved) box = moved;
+    else end.value = words(box![place]!);
+    clip();
+  }),
+);
 part("copy").addEventListener("click", () => {
   keep();
   void navigator.clipboard?.writeText(location.href);
@@ -609,13 +539,12 @@ document.addEventListener("keydown", (event) => {
   if (event.key === " ") play.click();
   else if (event.key === "ArrowRight") asked = { ...asked, step: Math.min(steps - 1, asked.step + 1), fraction: 0 };
   else if (event.key === "ArrowLeft") asked = { ...asked, step: asked.fraction ? asked.step : Math.max(0, asked.step - 1), fraction: 0 };
-  else if (event.key === "6") return addSlice();
-  else if (event.key === "h" && slices.length) alone.checked = !alone.checked;
-  else if (event.key === "Delete") slices = [];
-  else if ((event.key === "ArrowUp" || event.key === "ArrowDown") && slices[pickedSlice]) {
-    const { cell } = reachAlong(slices[pickedSlice]!.slice(3));
-    placeSlice(along(slices[pickedSlice]!) + (event.key === "ArrowUp" ? cell : -cell));
-  } else return;
+  else if (event.key === "6") return slices.add();
+  else if (event.key === "7") return clips.now ? clips.turn(acrossAxis(info(), nextAxis(info(), clips.now))) : clips.add();
+  else if (event.key === "h" && slices.planes.length) alone.checked = !alone.checked;
+  else if (event.key === "Delete") slices.set([]);
+  else if (event.key === "ArrowUp" || event.key === "ArrowDown") return (slices.now ? slices : clips).nudge(event.key === "ArrowUp" ? 1 : -1);
+  else return;
   event.preventDefault();
   if (event.key !== " ") ask(false);
 });

@@ -60,6 +60,16 @@ const settled = (page: Page, wanted: number) => page.waitForFunction((count) => 
   const chip = document.getElementById("chip")!;
   return chip.dataset["exact"] === "true" && chip.dataset["cells"] === String(count);
 }, wanted);
+/** The color of the picture at shares of its width and height. */
+const pixel = (page: Page, x: number, y: number) => page.evaluate(([px, py]) => {
+  const canvas = document.getElementById("picture") as HTMLCanvasElement;
+  const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height });
+  const context = copy.getContext("2d")!;
+  context.drawImage(canvas, 0, 0);
+  return [...context.getImageData(px! * canvas.width, py! * canvas.height, 1, 1).data.slice(0, 3)];
+}, [x, y]);
+/** Waits until what was set is drawn. */
+const drawn = (page: Page) => page.evaluate(() => new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go))));
 
 test("shows the surface, and obeys isovalue, time and link", async () => {
   const page = await open("#isovalue=12.5&background=%230f1116");
@@ -77,18 +87,9 @@ test("shows the surface, and obeys isovalue, time and link", async () => {
   await again.goto(link);
   await settled(again, cells(1, 9.5));
   // The ball is in the middle of the picture, and the background is not.
-  const pixel = (x: number, y: number) => page.evaluate(([px, py]) => {
-    const canvas = document.getElementById("picture") as HTMLCanvasElement;
-    const copy = document.createElement("canvas");
-    copy.width = canvas.width;
-    copy.height = canvas.height;
-    const context = copy.getContext("2d")!;
-    context.drawImage(canvas, 0, 0);
-    return [...context.getImageData(px! * canvas.width, py! * canvas.height, 1, 1).data];
-  }, [x, y]);
-  const middle = await pixel(0.5, 0.5);
+  const middle = await pixel(page, 0.5, 0.5);
   expect(middle[0]! + middle[1]!).toBeGreaterThan(150);
-  const side = await pixel(0.98, 0.5);
+  const side = await pixel(page, 0.98, 0.5);
   expect(side[0]! + side[1]!).toBeLessThan(80);
   await page.close();
   await again.close();
@@ -225,11 +226,11 @@ test("tells a story by keys, buttons and touch, and a link opens at its step", a
   await settled(page, cells(1, 9.5, 16384));
   await page.waitForSelector('#card[data-moving="false"]');
   expect(await heading()).toBe("2 of 3: half");
-  expect(await page.inputValue("#clip-axis")).toBe("plane");
+  expect(await page.inputValue("#clip-normal")).toBe("0, 0.6, 0.8");
   expect(await page.isVisible("#card-line line")).toBe(true);
-  await page.waitForFunction(() => location.hash.includes("told=3") && location.hash.includes("fraction=16384"));
+  await page.waitForFunction(() => /told=3/.test(location.hash) && /fraction=16384/.test(location.hash) && /view=20(%2C|\.0)/.test(location.hash));
   const link = new URLSearchParams(new URL(page.url()).hash.slice(1));
-  expect(link.get("plane")).toBe("20,20,20,0,0.6,0.8");
+  expect(link.get("planes")).toBe("20/20/20/0/0.6/0.8");
   expect(link.get("background")).toBe("#ffffff");
   // The head at 0, 1.6, 0 among the data: (head - translation) / scale, turned back, less their origin; the camera is on the line ahead.
   const camera = link.get("view")!.split(",").map(Number);
@@ -283,13 +284,6 @@ test.each<[string, string, RegExp]>([
 test("shows slices by keys, field and link, beside the surface and alone", async () => {
   const page = await open("#isovalue=12.5&background=%23000000&view=19.75,-60,19.75,19.75,19.75,19.75");
   await settled(page, cells(0, 12.5));
-  const pixel = (x: number, y: number) => page.evaluate(([px, py]) => {
-    const canvas = document.getElementById("picture") as HTMLCanvasElement;
-    const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height });
-    const context = copy.getContext("2d")!;
-    context.drawImage(canvas, 0, 0);
-    return [...context.getImageData(px! * canvas.width, py! * canvas.height, 1, 1).data.slice(0, 3)];
-  }, [x, y]);
   await page.keyboard.press("6"); // across z
   await page.waitForFunction(() => location.hash.includes("slices=19.5%2F19.5%2F19.5%2F0%2F0%2F1"));
   await page.fill("#slice-normal", "0, 2, 0");
@@ -299,9 +293,9 @@ test("shows slices by keys, field and link, beside the surface and alone", async
   await settled(page, 0);
   expect(await page.textContent("#chip")).toBe("exact: slices alone");
   expect(await page.textContent("#slice-words")).toMatch(/^0.4.* to .* mm$/);
-  await page.evaluate(() => new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go))));
+  await drawn(page);
   // In the middle of the ball are the lowest values, which are dark violet in viridis; in its corners are green ones.
-  const [dark, green, beside] = [await pixel(0.5, 0.5), await pixel(0.5 + 0.22, 0.5 - 0.3), await pixel(0.5 + 0.28, 0.5)];
+  const [dark, green, beside] = [await pixel(page, 0.5, 0.5), await pixel(page, 0.5 + 0.22, 0.5 - 0.3), await pixel(page, 0.5 + 0.28, 0.5)];
   expect(dark[2]!).toBeGreaterThan(dark[1]! + 40);
   expect(green[1]!).toBeGreaterThan(green[2]! + 20);
   expect(beside).toEqual([0, 0, 0]);
@@ -317,6 +311,50 @@ test("shows slices by keys, field and link, beside the surface and alone", async
   await page.keyboard.press("Delete");
   await page.waitForFunction(() => !location.hash.includes("slices"));
   expect(await page.isVisible("#slice-parts")).toBe(false);
+  await page.close();
+  await again.close();
+});
+
+test("cuts surfaces by planes and a box, and links hold them", async () => {
+  // Seen from the front, x to the right and z upwards; the ball's radius is 12.5 around 19.75.
+  const page = await open("#isovalue=12.5&background=%23000000&view=19.75,-60,19.75,19.75,19.75,19.75");
+  await settled(page, cells(0, 12.5));
+  const seen = async () => {
+    await drawn(page);
+    const light = async (x: number, z: number) => (await pixel(page, 0.5 + x, 0.5 - z)).some((n) => n > 40);
+    const [topLeft, topRight] = [await light(-0.08, 0.12), await light(0.08, 0.12)];
+    return { topLeft, topRight, bottomLeft: await light(-0.08, -0.12), bottomRight: await light(0.08, -0.12) };
+  };
+  const holds = (words: string) => page.waitForFunction((each) => decodeURIComponent(location.hash).includes(each), words);
+  const all = { topLeft: true, topRight: true, bottomLeft: true, bottomRight: true };
+  expect(await seen()).toEqual(all);
+  await page.keyboard.press("7"); // across z, and the upper half is cut away
+  await holds("planes=19.5/19.5/19.5/0/0/1");
+  expect(await seen()).toEqual({ ...all, topLeft: false, topRight: false });
+  await page.click("#clip-flip");
+  await holds("planes=19.5/19.5/19.5/0/0/-1");
+  expect(await seen()).toEqual({ ...all, bottomLeft: false, bottomRight: false });
+  await page.click("#clip-add"); // across x
+  await page.evaluate(() => (document.activeElement as HTMLElement).blur());
+  await page.keyboard.press("ArrowDown");
+  await holds("planes=19.5/19.5/19.5/0/0/-1,18.5/19.5/19.5/1/0/0");
+  expect(await seen()).toEqual({ topLeft: true, topRight: false, bottomLeft: false, bottomRight: false });
+  await page.check("#boxed");
+  await page.fill("#box-parts label:first-child input:first-child", "15,5");
+  await page.press("#box-parts label:first-child input:first-child", "Enter");
+  await holds("box=15.5,0,0,39,39,39");
+  expect((await seen()).topLeft).toBe(false);
+  const again = await browser.newPage({ viewport: { width: 800, height: 600 } });
+  await again.goto(page.url());
+  await settled(again, cells(0, 12.5));
+  expect(await again.$$eval("#clip option", (options) => options.length)).toBe(2);
+  expect(await again.isChecked("#boxed")).toBe(true);
+  expect(await again.inputValue("#box-parts label:first-child input:first-child")).toBe("15.5");
+  await page.uncheck("#boxed");
+  await page.click("#clip-remove");
+  await page.click("#clip-remove");
+  await page.waitForFunction(() => !/planes|box/.test(location.hash));
+  expect(await seen()).toEqual(all);
   await page.close();
   await again.close();
 });

@@ -88,7 +88,7 @@ test("steps are the keys with texts, numbered as the program numbers them", () =
 });
 
 test("a link names the file of a story beside it and its key, and no other place", () => {
-  const state = { file: "a.isochron", story: "tour.isochron-story", told: 3, up: [0, 1, 0], plane: [1, 2, 3, 0, 0, 1], fraction: 5, range: [0, 1] };
+  const state = { file: "a.isochron", story: "tour.isochron-story", told: 3, up: [0, 1, 0], planes: [[1, 2, 3, 0, 0, 1]], fraction: 5, range: [0, 1] };
   expect(linked(linkOf(state))).toEqual({ ...state, isovalue: undefined });
   for (const story of ["../a", "/a", "http://x/a", "a/b", ".a", "a?b", "a#b", "\\a"])
     expect(linked(`#story=${encodeURIComponent(story)}&told=-1&fraction=65536&up=0,0,0&plane=1,1,1,0,0,0&range=2,1`)).toEqual({ isovalue: undefined });

@@ -7,13 +7,14 @@ import type { Info } from "../reader/index_file";
 import type { Key } from "../story/story";
 import { STORY_MOVE, Way, type Sight } from "../story/way";
 import { Headset, type HeadsetWishes } from "./headset";
+import { edgesOf, facesOf, outlineOf, type Box, type Plane } from "./planes";
 import { Slices, type SliceLook } from "./slices";
 import { Ticks } from "./ticks";
 
 /** Camera: place and target in one list of numbers, for links. */
 export type View = [number, number, number, number, number, number];
-/** What a clip plane cuts away: beyond a share of an axis of the array, or of a plane among the data. */
-export type Cut = { axis: number; share: number } | { point: readonly number[]; normal: readonly number[] };
+/** Colors of the outlines of what cuts surfaces. */
+const CUT = 0xff9e52;
 const UP = new THREE.Vector3(0, 0, 1);
 
 export class Scene {
@@ -31,10 +32,10 @@ export class Scene {
   private box: THREE.LineSegments | null = null;
   private wanted = false;
   private looks: readonly Surface[] = [];
-  private cuts = false;
-  /** The clip plane among the data, and where that is in the world. */
-  private readonly cutOfData = new THREE.Plane();
-  private readonly cut = new THREE.Plane();
+  /** What cuts the surfaces, among the data, and where that is in the world. */
+  private cutsOfData: THREE.Plane[] = [];
+  private cuts: THREE.Plane[] = [];
+  private readonly cutLines = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: CUT }));
   /** Called after the camera was moved. */
   moved: () => void = () => {};
   /** Called when a way that `go` began is at its end, or somebody else has taken the camera. */
@@ -54,7 +55,8 @@ export class Scene {
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
     key.position.set(-0.6, 0.8, 1);
     this.camera.add(key);
-    this.world.add(this.slices.group);
+    this.cutLines.frustumCulled = false;
+    this.world.add(this.slices.group, this.cutLines);
     this.scene.add(this.world, this.camera, new THREE.HemisphereLight(0xffffff, 0x303440, 1.1));
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
@@ -215,23 +217,23 @@ export class Scene {
       material.transparent = opacity < 1;
       material.depthWrite = opacity >= 1 || looks.length === 1;
       material.visible = opacity > 0;
-      material.clippingPlanes = this.cuts ? [this.cut] : null;
+      material.clippingPlanes = this.cuts.length ? this.cuts : null;
       material.needsUpdate = true;
     });
     this.draw();
   }
-  /** Cuts away what lies beyond a plane; null: nothing. */
-  clip(info: Info, at: Cut | null): void {
-    this.renderer.localClippingEnabled = at !== null;
-    if (at && "point" in at) {
-      const point = new THREE.Vector3(...(at.point as [number, number, number])).sub(new THREE.Vector3(...info.origin));
-      this.cutOfData.setFromNormalAndCoplanarPoint(new THREE.Vector3(...(at.normal as [number, number, number])).negate(), point);
-    } else if (at) {
-      const size = info.positions[at.axis]!.at(-1) ?? (info.vertices[at.axis]! - 1) * info.spacing[at.axis]!;
-      const along = new THREE.Vector3(...info.direction[at.axis]!);
-      this.cutOfData.setFromNormalAndCoplanarPoint(along.clone().negate(), along.multiplyScalar(size * at.share));
-    }
-    this.cuts = at !== null;
+  /** Cuts away what lies beyond planes, or outside a box; null: there is none. */
+  clip(info: Info, planes: readonly Plane[], box: Box | null): void {
+    const origin = new THREE.Vector3(...info.origin);
+    this.cutsOfData = [...planes, ...(box ? facesOf(info, box) : [])].map((plane) => {
+      const [point, normal] = [0, 3].map((first) => new THREE.Vector3().fromArray(plane, first));
+      return new THREE.Plane().setFromNormalAndCoplanarPoint(normal!.negate(), point!.sub(origin));
+    });
+    this.cuts = this.cutsOfData.map((plane) => plane.clone());
+    this.renderer.localClippingEnabled = this.cuts.length > 0;
+    this.cutLines.geometry.dispose();
+    const lines = [...planes.flatMap((plane) => outlineOf(info, plane)), ...(box ? edgesOf(info, box) : [])];
+    this.cutLines.geometry = new THREE.BufferGeometry().setFromPoints(lines.map((end) => new THREE.Vector3(...end)));
     this.look(this.looks);
   }
   background(color: string): void {
@@ -280,7 +282,7 @@ export class Scene {
   }
   private render(): void {
     this.world.updateMatrixWorld();
-    this.cut.copy(this.cutOfData).applyMatrix4(this.world.matrixWorld);
+    this.cuts.forEach((cut, i) => cut.copy(this.cutsOfData[i]!).applyMatrix4(this.world.matrixWorld));
     this.renderer.render(this.scene, this.camera);
     const { clientWidth, clientHeight } = this.renderer.domElement;
     if (!this.renderer.xr.isPresenting) this.ticks.draw(this.camera, clientWidth, clientHeight);

@@ -267,19 +267,30 @@ function showKey(key: Key): void {
     const colors = by !== "value" ? -1 : of === "" ? first : arrayCalled(of);
     asked = { ...asked, colors: colors < 0 ? null : colors };
     colorBy.value = colors < 0 ? "" : String(colors);
-    map.value = (MAP_NAMES as string[]).includes(name) ? name : "viridis";
+    map.value = mapCalled(name);
     range = key.coloring.range ?? null;
   }
   if (key.background !== undefined) {
     background.value = BACKGROUNDS[key.background] ?? BACKGROUNDS["dark"]!;
     scene.background(background.value);
   }
-  if (key.clip) {
-    clips.set(key.clip.shown ? [[...key.clip.point, ...key.clip.normal]] : []);
-    clip();
+  if (key.slices) {
+    const { planes, picked: moved, coloring, isolines: lines, alone: hides } = key.slices;
+    slices.set(planes, moved);
+    [isolines.checked, alone.checked] = [lines, hides];
+    if (coloring) {
+      sliceOf.value = coloring.array === "" ? "" : String(arrayCalled(coloring.array));
+      sliceMap.value = mapCalled(coloring.map);
+      sliceRange = coloring.range ?? null;
+    }
   }
+  if (key.clip) clips.set(key.clip.length ? [key.clip] : []);
+  if (key.box) box = key.box.length ? boxWithin(info(), key.box) : null;
+  clip();
   ask(false);
 }
+/** A map that the page has. */
+const mapCalled = (name: string): string => ((MAP_NAMES as string[]).includes(name) ? name : "viridis");
 /** The number of an array; empty: the first. */
 const arrayCalled = (name: string): number => (name === "" ? 0 : infos.findIndex((each) => each.array === name));
 

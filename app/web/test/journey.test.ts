@@ -211,21 +211,25 @@ test("tells a story by keys, buttons and touch, and a link opens at its step", a
     { time: 0, text: "Step <b>one</b> <img src=x onerror=alert(1)>", isovalue: 12.5, step: 0 },
     { time: 2, text: "", isovalue: 3 },
     { time: 4, name: "half", text: "In between.", place: [20, 20, 20], isovalue: 9.5, step: 1, fraction: 16384, between: "blend", look: { background: "white" }, clip: { shown: true, point: [20, 20, 20], normal: [0, 0.6, 0.8] }, ...view },
-    { time: 6, text: "The end.", step: 2, between: "hold" },
+    {
+      time: 6, text: "The end.", step: 2, between: "hold", clip: { shown: false, point: [0, 0, 0], normal: [0, 0, 1] }, clip_box: { shown: true, low: [0, 2, 0], high: [39, 99, 30.5] },
+      slices: { planes: [{ point: [20, 20, 20], normal: [0, 0, 1] }, { point: [9, 20, 20], normal: [1, 0, 0] }], picked: 1, coloring: { by: "value", map: "coolwarm", range: [5, 9] }, isolines: false },
+    },
+    { time: 8, text: "Slices alone.", slices: { planes: [{ point: [20, 20, 20], normal: [0, 1, 0] }], alone: true }, clip_box: { shown: false, low: [0, 0, 0], high: [0, 0, 0] } },
   ];
   writeFileSync(join(folder, "tour.isochron-story"), JSON.stringify({ format: "isochron keys", version: 1, keys }));
   writeFileSync(list, JSON.stringify({ files: ["ball.isochron"], story: "tour.isochron-story" }));
   const page = await open();
   const heading = () => page.textContent("#card .heading");
   await settled(page, cells(0, 12.5));
-  expect(await heading()).toBe("1 of 3");
+  expect(await heading()).toBe("1 of 4");
   expect(await page.textContent("#card .text")).toBe(keys[0]!.text);
   expect(await page.$("#card .text *")).toBeNull();
   const first = await page.evaluate("location.hash") as string;
   await page.keyboard.press("PageDown");
   await settled(page, cells(1, 9.5, 16384));
   await page.waitForSelector('#card[data-moving="false"]');
-  expect(await heading()).toBe("2 of 3: half");
+  expect(await heading()).toBe("2 of 4: half");
   expect(await page.inputValue("#clip-normal")).toBe("0, 0.6, 0.8");
   expect(await page.isVisible("#card-line line")).toBe(true);
   await page.waitForFunction(() => /told=3/.test(location.hash) && /fraction=16384/.test(location.hash) && /view=20(%2C|\.0)/.test(location.hash));
@@ -240,7 +244,7 @@ test("tells a story by keys, buttons and touch, and a link opens at its step", a
   const again = await browser.newPage({ viewport: { width: 800, height: 600 } });
   await again.goto(page.url());
   await settled(again, cells(1, 9.5, 16384));
-  expect(await again.textContent("#card .heading")).toBe("2 of 3: half");
+  expect(await again.textContent("#card .heading")).toBe("2 of 4: half");
   expect(new URLSearchParams(new URL(again.url()).hash.slice(1)).get("view")).toBe(link.get("view"));
   // A link that names a step alone shows it.
   const bare = await browser.newPage();
@@ -248,7 +252,17 @@ test("tells a story by keys, buttons and touch, and a link opens at its step", a
   await settled(bare, cells(1, 9.5, 16384));
   await page.click("#card .next");
   await settled(page, cells(2, 9.5));
+  await page.waitForFunction(() => location.hash.includes("told=4") && !location.hash.includes("planes"));
+  const end = new URLSearchParams(new URL(page.url()).hash.slice(1));
+  expect(Object.fromEntries(["slices", "slicemap", "slicerange", "isolines", "box", "alone"].map((name) => [name, end.get(name)]))).toEqual({
+    slices: "20/20/20/0/0/1,9/20/20/1/0/0", slicemap: "coolwarm", slicerange: "5,9", isolines: "0", box: "0,2,0,39,39,30.5", alone: null,
+  });
+  await page.keyboard.press("PageDown");
+  await settled(page, 0);
+  expect(await page.textContent("#chip")).toBe("exact: slices alone");
+  expect(await page.isChecked("#boxed")).toBe(false);
   expect(await page.isDisabled("#card .next")).toBe(true);
+  await page.keyboard.press("PageUp");
   await page.$eval("#card", (card) => {
     for (const [name, clientX] of [["pointerdown", 100], ["pointerup", 200]] as const) card.dispatchEvent(new PointerEvent(name, { pointerType: "touch", clientX }));
   });

@@ -8,6 +8,7 @@ import { misfit, storyAt, type Key } from "./story/story";
 import { Teller } from "./story/teller";
 import { sightOf } from "./story/way";
 import { colorsOf, drawLegend, MAP_NAMES, type MapName } from "./view/colors";
+import { momentText } from "./view/dates";
 import { Histogram } from "./view/histogram";
 import { PlaneList } from "./view/plane_list";
 import { acrossAxis, boxWithin, distanceAt, nextAxis, wholeBox, type Box, type Plane } from "./view/planes";
@@ -127,20 +128,29 @@ function ask(coarse: boolean): void {
   chip.textContent = "searching …";
   listSurfaces();
   slices.show();
-  time.step = between.checked ? "any" : "1";
-  time.value = String(asked.step + asked.fraction / FRACTIONS);
-  moment.textContent = momentWords();
+  sayMoment();
   if (coarse) keepSoon();
   else keep();
 }
 
 function momentWords(): string {
+  const { times } = info();
+  const steps = asked.fraction ? `between steps ${asked.step + 1} and ${asked.step + 2}` : `step ${asked.step + 1}`;
+  return `${steps} of ${times.length}: ${dateOf(asked.step, asked.fraction)}`;
+}
+/** When a moment is: a date of the data's calendar, or a time. */
+function dateOf(step: number, fraction = 0): string {
   const { times, timeUnit } = info();
-  const [first, second] = [times[asked.step]!, times[asked.step + 1] ?? 0];
-  const share = asked.fraction / FRACTIONS;
-  return asked.fraction
-    ? `between steps ${asked.step + 1} and ${asked.step + 2} of ${times.length}: ${words(first + share * (second - first))} ${timeUnit}`
-    : `step ${asked.step + 1} of ${times.length}: ${words(first)} ${timeUnit}`;
+  return momentText(times, step, fraction, timeUnit);
+}
+/** Says when moments are: in the time bar, for screen readers, in the browser's tab. */
+function sayMoment(): void {
+  time.step = between.checked ? "any" : "1";
+  time.value = String(asked.step + asked.fraction / FRACTIONS);
+  moment.textContent = momentWords();
+  time.setAttribute("aria-valuetext", moment.textContent);
+  for (const end of [from, to]) end.title = dateOf(Math.min(Math.max(0, Math.floor(Number(end.value)) || 0), info().times.length - 1));
+  document.title = `${state.file}, ${dateOf(asked.step, asked.fraction)} - Isochron`;
 }
 
 /** Shows the list of surfaces, and the values of the one that is changed. */
@@ -458,6 +468,7 @@ time.addEventListener("input", () => {
   asked = { ...asked, ...momentAt(Number(time.value)) };
   ask(false);
 });
+for (const end of [from, to]) end.addEventListener("change", sayMoment);
 play.addEventListener("click", () => {
   playing = !playing;
   play.textContent = playing ? "Pause" : "Play";

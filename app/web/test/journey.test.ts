@@ -373,6 +373,24 @@ test("cuts surfaces by planes and a box, and links hold them", async () => {
   await again.close();
 });
 
+test("says dates of the data's calendar", async () => {
+  const file = join(folder, "dated.isochron");
+  execFileSync(program, ["build", ...[0, 1, 2].map((t) => join(folder, `t${t}.raw`)), "-o", file, "--dims", "40", "40", "40", "--type", "f32", "--time-unit", "days since 2000-02-29 06:00 (360_day)"], { stdio: "pipe" });
+  const page = await open("#file=dated.isochron&isovalue=12.5&step=1");
+  await exact(page);
+  expect(await page.textContent("#moment")).toBe("step 2 of 3: 2000-02-30 06:00 (360_day)");
+  expect(await page.getAttribute("#time", "aria-valuetext")).toBe("step 2 of 3: 2000-02-30 06:00 (360_day)");
+  expect(await page.getAttribute("#to", "title")).toBe("2000-03-01 06:00 (360_day)");
+  expect(await page.title()).toBe("dated.isochron, 2000-02-30 06:00 (360_day) - Isochron");
+  await page.check("#between");
+  await page.$eval("#time", (slider: HTMLInputElement) => {
+    slider.value = "1.5";
+    slider.dispatchEvent(new Event("input"));
+  });
+  await page.waitForFunction(() => document.getElementById("moment")!.textContent === "between steps 2 and 3 of 3: 2000-02-30 18:00 (360_day)");
+  await page.close();
+});
+
 test("a link holds settings alone", async () => {
   const page = await open("#file=../../etc/passwd&isovalue=12.5&color=javascript:alert(1)");
   expect(await exact(page)).toBe(cells(0, 12.5));

@@ -261,6 +261,30 @@ std::string words_of(const interaction::ClipPlane& clip, const interaction::Clip
     return words;
 }
 
+void ghosts_as_linked(interaction::Ghosts& ghosts, const Words& settings) {
+    std::string word = word_of(settings, "ghosts");
+    std::ranges::replace(word, '/', ',');
+    const auto n = numbers_of(word);
+    const auto is_count = [&](std::size_t i, double low, double high) {
+        return n[i] >= low && n[i] <= high && n[i] == std::floor(n[i]);
+    };
+    if (n.size() != 4 || !is_count(0, 0, interaction::kMostGhosts) ||
+        !is_count(1, 0, interaction::kMostGhosts) || !is_count(2, 1, interaction::kWidestGhosts) ||
+        n[3] < 0 || n[3] > 1)
+        return;
+    const auto count = [&](std::size_t i) { return static_cast<std::uint32_t>(n[i]); };
+    const interaction::Ghosts linked{count(0), count(1), count(2), static_cast<float>(n[3])};
+    if (linked.shown())
+        ghosts = linked;
+}
+
+/// The setting of ghosts; empty: none are shown.
+std::string words_of(const interaction::Ghosts& ghosts) {
+    const auto& [earlier, later, every, opacity] = ghosts;
+    return ghosts.shown() ? fmt::format("&ghosts={}/{}/{}/{:.3g}", earlier, later, every, opacity)
+                          : std::string();
+}
+
 /// Sets the map and its range. @param map, range names of the settings
 void color_as_linked(interaction::Coloring& coloring, const Words& settings, const std::string& map,
                      const std::string& range) {
@@ -348,6 +372,7 @@ ExplorerState as_linked(ExplorerState state, const Words& settings, const index:
     }
     slice_as_linked(state.slices, settings, file);
     cut_as_linked(state, settings, file.info());
+    ghosts_as_linked(state.ghosts, settings);
     if (const auto view = numbers_of(word_of(settings, "view")); view.size() == 6)
         see_as_linked(state, view, numbers_of(word_of(settings, "up")), file, screen);
     return state;
@@ -396,7 +421,7 @@ std::string link_to(const std::string& address, const ExplorerState& state,
     const glm::dmat3 upright = page_axes(glm::conjugate(seen.rotation) * back);
     if (glm::distance(up, upright[1]) > kTilted)
         link += fmt::format("&up={:.7g},{:.7g},{:.7g}", said.x, said.y, said.z);
-    link += words_of(state.clip, state.clip_box);
+    link += words_of(state.clip, state.clip_box) + words_of(state.ghosts);
     link += words_of(state.slices, file);
     if (state.coloring.by == interaction::ColorBy::value)
         if (const auto number = file.array_called(state.coloring.array)) {

@@ -1,6 +1,7 @@
 // The state in the link: settings alone, no paths but the name of the file beside the page.
 
 import { MAP_NAMES } from "./view/colors";
+import { areShown, MOST_GHOSTS, WIDEST_GHOSTS, type GhostSettings } from "./view/ghosts";
 
 /** A surface of the array, and how it looks. */
 export interface Surface {
@@ -45,6 +46,7 @@ export interface Linked {
   isolines?: number;
   /** 1: without the surfaces. */
   alone?: number;
+  ghosts?: GhostSettings;
   /** What is up in the picture; absent: the data's z. */
   up?: number[];
   /** So many 65536ths of the way to the next step. */
@@ -101,6 +103,11 @@ export function linked(hash: string): Linked {
   // Earlier versions wrote one plane, as `plane`.
   const planes = planesOf(words.get("planes"), MOST_CUTS) ?? planesOf(words.get("plane")?.replaceAll(",", "/") ?? null, 1);
   if (planes) state.planes = planes;
+  // earlier/later/every/opacity
+  const [earlier, later, every, share] = (words.get("ghosts") ?? "").split("/").map((word) => numberOf(word) ?? NaN) as [number, number?, number?, number?];
+  const isCount = (n: number | undefined, low: number, high: number): n is number => Number.isInteger(n) && n! >= low && n! <= high;
+  if (isCount(earlier, 0, MOST_GHOSTS) && isCount(later, 0, MOST_GHOSTS) && isCount(every, 1, WIDEST_GHOSTS) && share! <= 1 && areShown({ earlier, later, every, opacity: share! }))
+    state.ghosts = { earlier, later, every, opacity: share! };
   const slices = planesOf(words.get("slices"), MOST_SLICES);
   if (slices) state.slices = slices;
   const clip = (words.get("clip") ?? "").split(",").map(Number);
@@ -121,7 +128,8 @@ export function linked(hash: string): Linked {
 
 export function linkOf(state: Linked): string {
   const words = new URLSearchParams();
-  const { surfaces, ...others } = state;
+  const { surfaces, ghosts, ...others } = state;
+  if (ghosts) words.set("ghosts", [ghosts.earlier, ghosts.later, ghosts.every, +ghosts.opacity.toPrecision(3)].join("/"));
   if (surfaces) words.set("surfaces", surfaces.map(({ isovalue, color, opacity }) => `${isovalue}/${color.slice(1)}/${opacity}`).join(","));
   for (const name of ["slices", "planes"] as const) {
     const planes = others[name];

@@ -9,6 +9,7 @@ import { Teller } from "./story/teller";
 import { sightOf } from "./story/way";
 import { colorsOf, drawLegend, MAP_NAMES, type MapName } from "./view/colors";
 import { momentText } from "./view/dates";
+import { areShown, ghostColor, ghostMoments, Ghosts, MOST_GHOSTS, NO_GHOSTS, WIDEST_GHOSTS } from "./view/ghosts";
 import { Histogram } from "./view/histogram";
 import { PlaneList } from "./view/plane_list";
 import { acrossAxis, boxWithin, distanceAt, nextAxis, wholeBox, type Box, type Plane } from "./view/planes";
@@ -46,6 +47,8 @@ const background = part<HTMLInputElement>("background");
 const between = part<HTMLInputElement>("between");
 const colorBy = part<HTMLSelectElement>("color-by");
 const map = part<HTMLSelectElement>("map");
+const ghosted = part<HTMLInputElement>("ghosts");
+const ghostFields = [...part("ghost-parts").querySelectorAll("input")]; // earlier, later, every, opacity
 const boxed = part<HTMLInputElement>("boxed");
 const boxEnds = [...part("box-parts").querySelectorAll("input")]; // low and high of each axis
 const sliceOf = part<HTMLSelectElement>("slice-of");
@@ -74,7 +77,7 @@ const say = (words: ToWorker) => worker.postMessage(words);
 let state: Linked = linked(location.hash);
 let infos: Info[] = [];
 let levels = 1;
-let asked: Asked = { array: 0, step: 0, fraction: 0, isovalues: [0], colors: null, slices: [], sliceOf: 0, alone: false };
+let asked: Asked = { array: 0, step: 0, fraction: 0, isovalues: [0], colors: null, slices: [], sliceOf: 0, alone: false, ghosts: [], ghostTriangles: 0 };
 let range: number[] | null = null; // the ends of the color map; null: all values
 let box: Box | null = null; // what is outside it is cut away
 let story: Key[] | null = null;
@@ -93,6 +96,7 @@ let later = 0; // the timer of the address
 
 const info = (): Info => infos[asked.array]!;
 const words = (value: number): string => String(+value.toPrecision(6));
+const ghosts = new Ghosts();
 const slices = new PlaneList("slice", MOST_SLICES, info, ask);
 const clips = new PlaneList("clip", MOST_CUTS, info, clip);
 
@@ -118,6 +122,11 @@ function ask(coarse: boolean): void {
     sliceOf: sliceOf.value === "" ? asked.array : Number(sliceOf.value),
     alone: alone.checked,
   };
+  // While time plays between steps, ghosts of whole ones serve longer than it takes to make them.
+  const now = { step: asked.step, fraction: playing ? 0 : asked.fraction };
+  const hidden = asked.alone && asked.slices.length > 0;
+  const missing = ghosts.wish(hidden ? [] : ghostMoments(ghosts.settings, now, playRange(), info()), asked);
+  asked = { ...asked, ghosts: coarse ? [] : missing, ghostTriangles: ghosts.most };
   const finest = coarse ? Math.min(levels - 1, info().vertices.some((n) => n > 160) ? 2 : info().vertices.some((n) => n > 80) ? 1 : 0) : 0;
   const wanted: number[] = [];
   for (let level = levels - 1; level >= finest; --level) {
@@ -131,6 +140,13 @@ function ask(coarse: boolean): void {
   sayMoment();
   if (coarse) keepSoon();
   else keep();
+}
+
+/** The first and last step that plays. */
+function playRange(): [number, number] {
+  const end = info().times.length - 1;
+  const within = (text: string, otherwise: number) => (/^\d+$/.test(text) ? Math.min(end, Number(text)) : otherwise);
+  return [within(from.value, 0), within(to.value, end)];
 }
 
 function momentWords(): string {
@@ -201,6 +217,7 @@ function keep(): void {
           ...(isolines.checked ? {} : { isolines: 0 }), ...(alone.checked ? { alone: 1 } : {}),
         }
       : {}),
+    ...(areShown(ghosts.settings) ? { ghosts: ghosts.settings } : {}),
     ...(clips.planes.length ? { planes: clips.planes } : {}),
     ...(box ? { box } : {}),
     ...(story && state.story ? { story: state.story, told: teller.told } : {}),
@@ -245,7 +262,38 @@ function paint(): void {
   }
   scene.look(surfaces);
   paintSlices();
+  paintGhosts();
   if (last) scene.show(last.found, last.found.map(({ values }) => (of && values ? colorsOf(name, values, low, high) : null)));
+}
+
+/** Shows the ghosts that are at hand, beside what is shown. */
+function paintGhosts(): void {
+  const { settings, shown: all } = ghosts;
+  const { earlier, later, every, opacity: share } = settings;
+  const now = last?.asked ?? asked;
+  ghosted.checked = areShown(settings);
+  part("ghost-parts").hidden = !ghosted.checked;
+  ghosted.parentElement!.hidden = info().times.length < 2;
+  ghostFields.forEach((field, i) => {
+    if (document.activeElement !== field) field.value = String([earlier, later, every, share][i]);
+  });
+  scene.ghosts(
+    all.flatMap((ghost) =>
+      ghost.found.flatMap((mesh, i) => (surfaces[i] && surfaces[i].opacity > 0 ? [{ mesh, color: ghostColor(surfaces[i].color, ghost, now, settings), opacity: share }] : [])),
+    ),
+  );
+  part("ghost-words").replaceChildren(
+    ...all.map((ghost) => {
+      const line = document.createElement("div");
+      const mark = line.appendChild(document.createElement("span"));
+      mark.textContent = "■ ";
+      mark.style.color = ghostColor(surfaces[0]!.color, ghost, now, settings);
+      line.append(`${dateOf(ghost.step, ghost.fraction)}${ghost.level ? ", simplified" : ""}`);
+      return line;
+    }),
+  );
+  if (ghosted.checked && all.length < ghosts.wished.length) part("ghost-words").append("more come");
+  else if (ghosted.checked && !all.length) part("ghost-words").append("the series has no such steps");
 }
 
 /** Shows what cuts the surfaces. */
@@ -294,6 +342,7 @@ function showKey(key: Key): void {
       sliceRange = coloring.range ?? null;
     }
   }
+  if (key.ghosts) ghosts.settings = key.ghosts;
   if (key.clip) clips.set(key.clip.length ? [key.clip] : []);
   if (key.box) box = key.box.length ? boxWithin(info(), key.box) : null;
   clip();
@@ -333,6 +382,7 @@ function grown(found: Info[]): void {
   const wasLast = asked.step === info().times.length - 1;
   const wholeRange = to.value === String(info().times.length - 1);
   infos = found;
+  ghosts.forget();
   asked.array = Math.min(asked.array, infos.length - 1);
   const steps = info().times.length;
   time.max = String(steps - 1);
@@ -373,6 +423,7 @@ function opened(found: Info[], count: number): void {
   range = state.range ?? null;
   slices.set((state.slices ?? []).map(ofUnit));
   clips.set((state.planes ?? []).map(ofUnit));
+  ghosts.settings = state.ghosts ?? NO_GHOSTS;
   if (state.clip) clips.set([...clips.planes, acrossAt(...state.clip)]);
   box = state.box ? boxWithin(info(), state.box) : null;
   sliceRange = state.slicerange ?? null;
@@ -407,6 +458,11 @@ worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
   }
   if (data.number < shown) return; // an older wish
   shown = data.number;
+  if (data.kind === "ghost") {
+    ghosts.keep(data.ghost, data.asked);
+    paintGhosts();
+    return goOn(data.last);
+  }
   last = data;
   paint();
   const exact = data.level === 0;
@@ -418,10 +474,15 @@ worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
   chip.dataset["cells"] = String(count);
   if (badStory && exact) chip.textContent += `; ${badStory}`;
   chip.title = `${data.requests} requests, ${(data.bytes / 1e6).toFixed(1)} MB`;
-  if (!playing || !data.last) return;
+  goOn(data.last);
+};
+
+/** Plays on. @param whole all of the moment is shown */
+function goOn(whole: boolean): void {
+  if (!playing || !whole) return;
   clearTimeout(turn);
   turn = window.setTimeout(next, between.checked ? 0 : 1000 / Number(speed.value));
-};
+}
 
 /** @param at steps from the first one, and a part of the way to the next */
 function momentAt(at: number): { step: number; fraction: number } {
@@ -431,9 +492,7 @@ function momentAt(at: number): { step: number; fraction: number } {
 
 function next(): void {
   if (!playing) return;
-  const end = info().times.length - 1;
-  const within = (text: string, otherwise: number) => (/^\d+$/.test(text) ? Math.min(end, Number(text)) : otherwise);
-  const [first, final] = [within(from.value, 0), within(to.value, end)];
+  const [first, final] = playRange();
   if (between.checked) {
     const now = performance.now();
     const at = played.at + Math.min(1, ((now - played.now) / 1000) * Number(speed.value));
@@ -500,6 +559,7 @@ remove.addEventListener("click", () => {
 const style = () => {
   change({ color: color.value, opacity: Number(opacity.value) });
   scene.look(surfaces);
+  paintGhosts();
   if (slices.planes.length) paintSlices();
   scene.background(background.value);
   keepSoon();
@@ -518,6 +578,20 @@ sliceOf.addEventListener("change", () => {
   sliceRange = null;
   ask(false);
 });
+ghosted.addEventListener("change", () => {
+  ghosts.toggle();
+  ask(false);
+});
+ghostFields.forEach((field, i) =>
+  field.addEventListener("change", () => {
+    const { settings } = ghosts;
+    const name = (["earlier", "later", "every", "opacity"] as const)[i]!;
+    const [low, high] = i === 3 ? [0, 1] : i === 2 ? [1, WIDEST_GHOSTS] : [0, MOST_GHOSTS];
+    const number = Math.min(high, Math.max(low, i === 3 ? Number(field.value) : Math.round(Number(field.value))));
+    ghosts.settings = { ...settings, [name]: Number.isFinite(number) ? number : settings[name] };
+    ask(false);
+  }),
+);
 for (const input of [sliceMap, isolines])
   input.addEventListener("change", () => {
     paint();
@@ -563,6 +637,7 @@ document.addEventListener("keydown", (event) => {
   else if (event.key === "ArrowLeft") asked = { ...asked, step: asked.fraction ? asked.step : Math.max(0, asked.step - 1), fraction: 0 };
   else if (event.key === "6") return slices.add();
   else if (event.key === "7") return clips.now ? clips.turn(acrossAxis(info(), nextAxis(info(), clips.now))) : clips.add();
+  else if (event.key === "g") ghosts.toggle();
   else if (event.key === "h" && slices.planes.length) alone.checked = !alone.checked;
   else if (event.key === "Delete") slices.set([]);
   else if (event.key === "ArrowUp" || event.key === "ArrowDown") return (slices.now ? slices : clips).nudge(event.key === "ArrowUp" ? 1 : -1);

@@ -17,7 +17,7 @@ const run = (...words: string[]) => execFileSync(program, words, { stdio: ["igno
 
 const hours = [0, 0.5, 1, 7.25, 30.4, 365, 1000.123];
 test.each<[string, number[]]>([
-  ["days since 1582-10-01", hours],
+  ["days since 1582-10-01", [...hours, 3, 3.5, 4]],
   ["Days since 1600-03-01 06:30:15.5 +02:00 (proleptic_gregorian)", hours],
   ["days since 1500-02-28 (proleptic_gregorian)", hours],
   ["days since 1999-12-31T18 (360_day)", hours],

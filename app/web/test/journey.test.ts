@@ -373,6 +373,45 @@ test("cuts surfaces by planes and a box, and links hold them", async () => {
   await again.close();
 });
 
+test("shows ghosts of other steps, also while time plays, and links hold them", async () => {
+  // Seen from the front: the ball shrinks by 1 each step, so that only the ghost of an earlier step is beside it.
+  const page = await open("#isovalue=12.5&step=1&background=%23000000&view=19.75,-60,19.75,19.75,19.75,19.75");
+  await settled(page, cells(1, 12.5));
+  const beside = () => pixel(page, 0.5, 0.5 - (12.05 / 77.4) * (800 / 600)); // 12.05 above the middle
+  expect(await beside()).toEqual([0, 0, 0]);
+  const words = () => page.$$eval("#ghost-words div", (lines) => lines.map((line) => line.textContent!.replace("■ ", "")));
+  await page.keyboard.press("g");
+  await page.waitForFunction(() => document.querySelectorAll("#ghost-words div").length === 2);
+  expect(await words()).toEqual(["0", "2"]);
+  await settled(page, cells(1, 12.5));
+  await drawn(page);
+  const blue = await beside();
+  expect(blue[2]!).toBeGreaterThan(blue[0]! + 10);
+  await page.fill("#ghost-parts input:first-child", "0");
+  await page.press("#ghost-parts input:first-child", "Enter");
+  await page.waitForFunction(() => document.querySelectorAll("#ghost-words div").length === 1);
+  await page.waitForFunction(() => decodeURIComponent(location.hash).includes("ghosts=0/2/1/0.25"));
+  await drawn(page);
+  expect(await beside()).toEqual([0, 0, 0]);
+  const again = await browser.newPage({ viewport: { width: 800, height: 600 } });
+  await again.goto(page.url());
+  await settled(again, cells(1, 12.5));
+  await again.waitForFunction(() => document.querySelectorAll("#ghost-words div").length === 1);
+  // Time goes on when the ghosts are there, too.
+  await again.selectOption("#speed", "24");
+  await again.evaluate(() => {
+    const seen = new Set<string>();
+    new MutationObserver(() => {
+      seen.add(`${document.getElementById("moment")!.textContent!.slice(5, 6)}: ${[...document.querySelectorAll("#ghost-words div")].map((line) => line.textContent!.slice(2)).join()}`);
+      document.body.dataset["seen"] = [...seen].join(" ");
+    }).observe(document.getElementById("ghost-words")!, { childList: true });
+  });
+  await again.click("#play");
+  await again.waitForFunction(() => /1: 1,2/.test(document.body.dataset["seen"] ?? "") && /2: 2/.test(document.body.dataset["seen"] ?? ""));
+  await page.close();
+  await again.close();
+});
+
 test("says dates of the data's calendar", async () => {
   const file = join(folder, "dated.isochron");
   execFileSync(program, ["build", ...[0, 1, 2].map((t) => join(folder, `t${t}.raw`)), "-o", file, "--dims", "40", "40", "40", "--type", "f32", "--time-unit", "days since 2000-02-29 06:00 (360_day)"], { stdio: "pipe" });

@@ -20,14 +20,14 @@ test("a story has the keys that the page shows, and what it does not know says n
       coloring: { by: "value", map: "coolwarm", array: "p", range: [1, 2] }, isolines: false, alone: true,
     },
     head: [0, 1.6, 0, 0, 0, 0, 1], room_from_physical: { translation: [1, 2, 3], rotation: [0, 0, 0, 1], scale: 2, exaggeration: 5 },
-    models: [], ghosts: { earlier: 2 }, later_versions: { anything: [1, 2] }, __proto__: null,
+    models: [], ghosts: { earlier: 2, later: 0, every: 3, opacity: 0.5 }, later_versions: { anything: [1, 2] }, __proto__: null,
   });
   expect(key).toEqual({
     name: "front", text: "a", place: [1, 2, 3], step: 4, fraction: 7, blends: true, array: "T", surfaces: [{ isovalue: 2.5, color: "#ff8000", opacity: 0.25 }],
     picked: 0, isovalue: 3, coloring: { by: "value", map: "viridis", array: "p", range: [0, 9] }, background: "white",
     clip: [0, 1, 2, 0, 0, -1], box: [0, 1.5, 2, 9, 8, 7],
     slices: { planes: [[1, 2, 3, 1, 0, 0], [4, 5, 6, 0, 0.6, 0.8]], picked: 1, coloring: { by: "value", map: "coolwarm", array: "p", range: [1, 2] }, isolines: false, alone: true },
-    head: { position: [0, 1.6, 0], turn: [0, 0, 0, 1] }, data: { place: [1, 2, 3], turn: [0, 0, 0, 1], scale: 2 },
+    ghosts: { earlier: 2, later: 0, every: 3, opacity: 0.5 }, head: { position: [0, 1.6, 0], turn: [0, 0, 0, 1] }, data: { place: [1, 2, 3], turn: [0, 0, 0, 1], scale: 2 },
   });
   expect(storyOf(file([{ time: 0, text: "a" }], { data: "../../etc/passwd", more: 1 }), "s")).toHaveLength(1);
 });
@@ -55,6 +55,7 @@ test.each<[string, string, RegExp]>([
   ["four slices", file([{ time: 0, text: "a", slices: { planes: Array(4).fill({ point: [0, 0, 0], normal: [1, 0, 0] }) } }]), /^s: key 1: planes: expected a list of 0 to 3/],
   ["a slice without a direction", file([{ time: 0, text: "a", slices: { planes: [{ point: [0, 0, 0], normal: [0, 0, 0] }] } }]), /^s: key 1: normal: expected a length of 1/],
   ["a box without a middle", file([{ time: 0, text: "a", clip_box: { shown: true, low: [0, 3, 0], high: [9, 3, 9] } }]), /^s: key 1: high: expected more than low along each axis, got \[9,3,9\]$/],
+  ["five ghosts", file([{ time: 0, text: "a", ghosts: { earlier: 5, later: 0, every: 1, opacity: 1 } }]), /^s: key 1: earlier: expected a whole number from 0 to 4/],
   ["a deep nest", file([{ time: 0, text: "a", x: JSON.parse("[".repeat(40) + "]".repeat(40)) as unknown }]), /^s: nested deeper than 16 levels$/],
 ])("%s is refused in a line", (_, text, said) => {
   expect(() => storyOf(text, "s")).toThrow(said);

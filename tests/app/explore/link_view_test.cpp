@@ -54,6 +54,7 @@ TEST_F(LinkView, IsReadAsItWasWritten) {
     state.picked = 1;
     state.instant = index::Instant(1);
     state.clip = {true, {101, -19.5, 4}, {0, 0.6, -0.8}};
+    state.ghosts = {.earlier = 1, .later = 4, .every = 3, .opacity = 0.5f};
     state.clip_box = {true, {0, 2.5, 1}, {18, 16, 13.25}};
     state.coloring = {.by = interaction::ColorBy::value, .map = "turbo", .range = {{-1, 2.5}}};
     state.coloring.array = file_.info().array;
@@ -78,6 +79,7 @@ TEST_F(LinkView, IsReadAsItWasWritten) {
     EXPECT_EQ(read.clip.point, state.clip.point);
     EXPECT_NEAR(glm::distance(read.clip.normal, state.clip.normal), 0, 1e-9);
     EXPECT_EQ(read.clip_box, state.clip_box);
+    EXPECT_EQ(read.ghosts, state.ghosts);
     EXPECT_EQ(read.coloring.map, "turbo");
     EXPECT_EQ(read.coloring.range, state.coloring.range);
     state.slices.planes.pop_back(); // a link holds what is seen
@@ -159,7 +161,8 @@ TEST_F(LinkView, IgnoresWhatIsNoSetting) {
          {"isovalue=1e999&step=-1&array=7&view=1,2,3",
           "isovalue=nan&step=99999999999&surfaces=,/,&picked=5",
           "view=1,1,1,1,1,1&clip=7,2&colors=-1&opacity=abc", "view=nan,1,1,1,1,1&isovalue=0x10",
-          "%%%&&=&=;", "plane=1,2,3,0,0,0&up=0,0,0&range=2,1&map=none",
+          "%%%&&=&=;", "plane=1,2,3,0,0,0&up=0,0,0&range=2,1&map=none", "ghosts=5/0/1/0.5",
+          "ghosts=1/1/0/0.5", "ghosts=1/1/1.5/0.5", "ghosts=0/0/1/1", "ghosts=1/1",
           "planes=1/2/3/0/0/0,a/b&box=0,0,0,1,1", "box=3,0,0,3,1,1", "box=20,0,0,30,1,1",
           "slices=1/2/3/0/0/0,1/2/3,a/b/c/d/e/f&alone=1"})
         EXPECT_EQ(

@@ -1,5 +1,7 @@
 // Stories: files of key frames with texts. They hold views and texts, and are checked before any of it is shown.
 
+import { MOST_GHOSTS, WIDEST_GHOSTS, type GhostSettings } from "../view/ghosts";
+
 /** Where something is in the room of a key: +Y up, meters. */
 export interface Pose {
   position: [number, number, number];
@@ -49,6 +51,7 @@ export interface Key {
   /** Low and high corner of the box as indices of vertices; empty: there is none. */
   box?: number[];
   slices?: KeySlices;
+  ghosts?: GhostSettings;
   name: string;
   text: string;
   /** What the text is about, physical space. */
@@ -192,6 +195,12 @@ function keyOf(of_key: Read): Key {
     }),
     box: of(find("clip_box"), boxOf),
     slices: of(find("slices"), slicesOf),
+    ghosts: of(find("ghosts"), (ghosts) => ({
+      earlier: ghosts.at("earlier").natural(MOST_GHOSTS),
+      later: ghosts.at("later").natural(MOST_GHOSTS),
+      every: Math.max(1, ghosts.at("every").natural(WIDEST_GHOSTS)),
+      opacity: ghosts.at("opacity").number(0, 1),
+    })),
     name: find("name")?.text(LONGEST_NAME) ?? "",
     text: find("text")?.text(LONGEST_TEXT) ?? "",
     place: find("place")?.numbers<[number, number, number]>(3),

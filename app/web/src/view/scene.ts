@@ -17,6 +17,14 @@ export type View = [number, number, number, number, number, number];
 const CUT = 0xff9e52;
 const UP = new THREE.Vector3(0, 0, 1);
 
+function geometryOf(found: Found): THREE.BufferGeometry {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(found.points, 3));
+  geometry.setAttribute("normal", new THREE.BufferAttribute(found.normals, 3));
+  geometry.setIndex(new THREE.BufferAttribute(found.triangles, 1));
+  return geometry;
+}
+
 export class Scene {
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
@@ -28,6 +36,7 @@ export class Scene {
   private way: { way: Way; began: number | null } | null = null;
   private inside: Headset | null = null;
   private readonly surfaces: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>[] = [];
+  private readonly ghostMeshes = new Map<Found, THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>>();
   private readonly slices = new Slices();
   private box: THREE.LineSegments | null = null;
   private wanted = false;
@@ -182,12 +191,9 @@ export class Scene {
       gone.material.dispose();
     }
     found.forEach((each, i) => {
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute("position", new THREE.BufferAttribute(each.points, 3));
-      geometry.setAttribute("normal", new THREE.BufferAttribute(each.normals, 3));
+      const geometry = geometryOf(each);
       const own = colors[i];
       if (own) geometry.setAttribute("color", new THREE.BufferAttribute(own, 3));
-      geometry.setIndex(new THREE.BufferAttribute(each.triangles, 1));
       let surface = this.surfaces[i];
       if (!surface) {
         surface = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ roughness: 0.45, metalness: 0, side: THREE.DoubleSide }));
@@ -199,6 +205,29 @@ export class Scene {
       surface.geometry = geometry;
       surface.material.vertexColors = Boolean(own);
     });
+    this.look(this.looks);
+  }
+  /** Shows ghosts in their colors; those that were shown before are still there. */
+  ghosts(found: readonly { mesh: Found; color: string; opacity: number }[]): void {
+    for (const [mesh, { geometry, material }] of this.ghostMeshes)
+      if (!found.some((each) => each.mesh === mesh)) {
+        this.world.remove(this.ghostMeshes.get(mesh)!);
+        geometry.dispose();
+        material.dispose();
+        this.ghostMeshes.delete(mesh);
+      }
+    for (const { mesh, color, opacity } of found) {
+      let ghost = this.ghostMeshes.get(mesh);
+      if (!ghost) {
+        ghost = new THREE.Mesh(geometryOf(mesh), new THREE.MeshStandardMaterial({ roughness: 0.45, metalness: 0, side: THREE.DoubleSide, transparent: true, depthWrite: false }));
+        ghost.frustumCulled = false;
+        ghost.renderOrder = 1; // behind nothing that is translucent
+        this.ghostMeshes.set(mesh, ghost);
+        this.world.add(ghost);
+      }
+      ghost.material.color.set(color);
+      ghost.material.opacity = opacity;
+    }
     this.look(this.looks);
   }
   /** Shows slices of an array with this grid. */
@@ -217,9 +246,9 @@ export class Scene {
       material.transparent = opacity < 1;
       material.depthWrite = opacity >= 1 || looks.length === 1;
       material.visible = opacity > 0;
-      material.clippingPlanes = this.cuts.length ? this.cuts : null;
       material.needsUpdate = true;
     });
+    for (const { material } of [...this.surfaces, ...this.ghostMeshes.values()]) material.clippingPlanes = this.cuts.length ? this.cuts : null;
     this.draw();
   }
   /** Cuts away what lies beyond planes, or outside a box; null: there is none. */

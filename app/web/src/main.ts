@@ -7,12 +7,14 @@ import type { Info } from "./reader/index_file";
 import { misfit, storyAt, type Key } from "./story/story";
 import { Teller } from "./story/teller";
 import { sightOf } from "./story/way";
+import { BoxFields } from "./view/box_fields";
 import { colorsOf, drawLegend, MAP_NAMES, type MapName } from "./view/colors";
 import { momentText } from "./view/dates";
-import { areShown, ghostColor, ghostMoments, Ghosts, MOST_GHOSTS, NO_GHOSTS, WIDEST_GHOSTS } from "./view/ghosts";
+import { GhostPanel } from "./view/ghost_panel";
+import { areShown, ghostColor, ghostMoments, Ghosts, NO_GHOSTS } from "./view/ghosts";
 import { Histogram } from "./view/histogram";
 import { PlaneList } from "./view/plane_list";
-import { acrossAxis, boxWithin, distanceAt, nextAxis, wholeBox, type Box, type Plane } from "./view/planes";
+import { acrossAxis, distanceAt, nextAxis, type Plane } from "./view/planes";
 import { Scene } from "./view/scene";
 
 const LOOK = 2000; // milliseconds between two looks at a file that grows
@@ -47,10 +49,6 @@ const background = part<HTMLInputElement>("background");
 const between = part<HTMLInputElement>("between");
 const colorBy = part<HTMLSelectElement>("color-by");
 const map = part<HTMLSelectElement>("map");
-const ghosted = part<HTMLInputElement>("ghosts");
-const ghostFields = [...part("ghost-parts").querySelectorAll("input")]; // earlier, later, every, opacity
-const boxed = part<HTMLInputElement>("boxed");
-const boxEnds = [...part("box-parts").querySelectorAll("input")]; // low and high of each axis
 const sliceOf = part<HTMLSelectElement>("slice-of");
 const sliceMap = part<HTMLSelectElement>("slice-map");
 const isolines = part<HTMLInputElement>("isolines");
@@ -79,7 +77,6 @@ let infos: Info[] = [];
 let levels = 1;
 let asked: Asked = { array: 0, step: 0, fraction: 0, isovalues: [0], colors: null, slices: [], sliceOf: 0, alone: false, ghosts: [], ghostTriangles: 0 };
 let range: number[] | null = null; // the ends of the color map; null: all values
-let box: Box | null = null; // what is outside it is cut away
 let story: Key[] | null = null;
 let badStory = ""; // why there is none
 let sliceRange: number[] | null = null; // the ends of their color map; null: all values
@@ -97,6 +94,8 @@ let later = 0; // the timer of the address
 const info = (): Info => infos[asked.array]!;
 const words = (value: number): string => String(+value.toPrecision(6));
 const ghosts = new Ghosts();
+const ghostPanel = new GhostPanel(ghosts, part<HTMLInputElement>("ghosts"), part("ghost-parts"), () => ask(false));
+const box = new BoxFields(part<HTMLInputElement>("boxed"), part("box-parts"), info, clip);
 const slices = new PlaneList("slice", MOST_SLICES, info, ask);
 const clips = new PlaneList("clip", MOST_CUTS, info, clip);
 
@@ -197,6 +196,15 @@ function drawScale(): void {
   part("scale-words").textContent = `${words(length)} ${info().lengthUnit}`;
 }
 
+/** Sets what is behind the data, and the ink of what is written on it. */
+function backdrop(color: string): void {
+  background.value = color;
+  scene.background(color);
+  const light = [1, 3, 5].reduce((sum, at, i) => sum + parseInt(color.slice(at, at + 2), 16) * [0.3, 0.59, 0.11][i]!, 0) > 128;
+  document.body.classList.toggle("on-light", light);
+  document.body.classList.toggle("on-dark", !light);
+}
+
 /** Puts the state into the address when nothing has moved for a moment: browsers count how often. */
 function keepSoon(): void {
   clearTimeout(later);
@@ -219,7 +227,7 @@ function keep(): void {
       : {}),
     ...(areShown(ghosts.settings) ? { ghosts: ghosts.settings } : {}),
     ...(clips.planes.length ? { planes: clips.planes } : {}),
-    ...(box ? { box } : {}),
+    ...(box.box ? { box: box.box } : {}),
     ...(story && state.story ? { story: state.story, told: teller.told } : {}),
   };
   history.replaceState(null, "", linkOf(state));
@@ -268,43 +276,21 @@ function paint(): void {
 
 /** Shows the ghosts that are at hand, beside what is shown. */
 function paintGhosts(): void {
-  const { settings, shown: all } = ghosts;
-  const { earlier, later, every, opacity: share } = settings;
+  const { settings } = ghosts;
   const now = last?.asked ?? asked;
-  ghosted.checked = areShown(settings);
-  part("ghost-parts").hidden = !ghosted.checked;
-  ghosted.parentElement!.hidden = info().times.length < 2;
-  ghostFields.forEach((field, i) => {
-    if (document.activeElement !== field) field.value = String([earlier, later, every, share][i]);
-  });
+  ghostPanel.show(info().times.length > 1, surfaces[picked]!.color, now, ({ step, fraction }) => dateOf(step, fraction));
   scene.ghosts(
-    all.flatMap((ghost) =>
-      ghost.found.flatMap((mesh, i) => (surfaces[i] && surfaces[i].opacity > 0 ? [{ mesh, color: ghostColor(surfaces[i].color, ghost, now, settings), opacity: share }] : [])),
+    ghosts.shown.flatMap((ghost) =>
+      ghost.found.flatMap((mesh, i) => (surfaces[i] && surfaces[i].opacity > 0 ? [{ mesh, color: ghostColor(surfaces[i].color, ghost, now, settings), opacity: settings.opacity }] : [])),
     ),
   );
-  part("ghost-words").replaceChildren(
-    ...all.map((ghost) => {
-      const line = document.createElement("div");
-      const mark = line.appendChild(document.createElement("span"));
-      mark.textContent = "■ ";
-      mark.style.color = ghostColor(surfaces[0]!.color, ghost, now, settings);
-      line.append(`${dateOf(ghost.step, ghost.fraction)}${ghost.level ? ", simplified" : ""}`);
-      return line;
-    }),
-  );
-  if (ghosted.checked && all.length < ghosts.wished.length) part("ghost-words").append("more come");
-  else if (ghosted.checked && !all.length) part("ghost-words").append("the series has no such steps");
 }
 
 /** Shows what cuts the surfaces. */
 function clip(): void {
   clips.show();
-  boxed.checked = box !== null;
-  part("box-parts").hidden = box === null;
-  boxEnds.forEach((end, i) => {
-    if (box && document.activeElement !== end) end.value = words(box[(i >> 1) + 3 * (i & 1)]!);
-  });
-  scene.clip(info(), clips.planes, box);
+  box.show();
+  scene.clip(info(), clips.planes, box.box);
   keepSoon();
 }
 
@@ -329,8 +315,7 @@ function showKey(key: Key): void {
     range = key.coloring.range ?? null;
   }
   if (key.background !== undefined) {
-    background.value = BACKGROUNDS[key.background] ?? BACKGROUNDS["dark"]!;
-    scene.background(background.value);
+    backdrop(BACKGROUNDS[key.background] ?? BACKGROUNDS["dark"]!);
   }
   if (key.slices) {
     const { planes, picked: moved, coloring, isolines: lines, alone: hides } = key.slices;
@@ -344,7 +329,7 @@ function showKey(key: Key): void {
   }
   if (key.ghosts) ghosts.settings = key.ghosts;
   if (key.clip) clips.set(key.clip.length ? [key.clip] : []);
-  if (key.box) box = key.box.length ? boxWithin(info(), key.box) : null;
+  if (key.box) box.set(key.box.length ? key.box : null);
   clip();
   ask(false);
 }
@@ -425,7 +410,7 @@ function opened(found: Info[], count: number): void {
   clips.set((state.planes ?? []).map(ofUnit));
   ghosts.settings = state.ghosts ?? NO_GHOSTS;
   if (state.clip) clips.set([...clips.planes, acrossAt(...state.clip)]);
-  box = state.box ? boxWithin(info(), state.box) : null;
+  box.set(state.box ?? null);
   sliceRange = state.slicerange ?? null;
   sliceOf.replaceChildren(new Option("as the surfaces", ""), ...infos.map((each, i) => new Option(each.array || "values", String(i))));
   sliceOf.value = state.sliceof !== undefined && state.sliceof < infos.length ? String(state.sliceof) : "";
@@ -561,7 +546,7 @@ const style = () => {
   scene.look(surfaces);
   paintGhosts();
   if (slices.planes.length) paintSlices();
-  scene.background(background.value);
+  backdrop(background.value);
   keepSoon();
 };
 for (const input of [color, opacity, background]) input.addEventListener("input", style);
@@ -578,20 +563,6 @@ sliceOf.addEventListener("change", () => {
   sliceRange = null;
   ask(false);
 });
-ghosted.addEventListener("change", () => {
-  ghosts.toggle();
-  ask(false);
-});
-ghostFields.forEach((field, i) =>
-  field.addEventListener("change", () => {
-    const { settings } = ghosts;
-    const name = (["earlier", "later", "every", "opacity"] as const)[i]!;
-    const [low, high] = i === 3 ? [0, 1] : i === 2 ? [1, WIDEST_GHOSTS] : [0, MOST_GHOSTS];
-    const number = Math.min(high, Math.max(low, i === 3 ? Number(field.value) : Math.round(Number(field.value))));
-    ghosts.settings = { ...settings, [name]: Number.isFinite(number) ? number : settings[name] };
-    ask(false);
-  }),
-);
 for (const input of [sliceMap, isolines])
   input.addEventListener("change", () => {
     paint();
@@ -599,20 +570,6 @@ for (const input of [sliceMap, isolines])
   });
 alone.addEventListener("change", () => ask(false));
 part("clip-flip").addEventListener("click", () => clips.now && clips.turn(clips.now.slice(3).map((n) => -n + 0)));
-boxed.addEventListener("change", () => {
-  box = boxed.checked ? wholeBox(info()) : null;
-  clip();
-});
-boxEnds.forEach((end, i) =>
-  end.addEventListener("change", () => {
-    const number = Number(end.value.replace(",", "."));
-    const place = (i >> 1) + 3 * (i & 1);
-    const moved = Number.isFinite(number) ? boxWithin(info(), box!.map((n, k) => (k === place ? number : n))) : null;
-    if (moved) box = moved;
-    else end.value = words(box![place]!);
-    clip();
-  }),
-);
 part("copy").addEventListener("click", () => {
   keep();
   void navigator.clipboard?.writeText(location.href);
@@ -694,8 +651,7 @@ async function openStory(name: string, headers: Record<string, string>): Promise
 }
 
 async function begin(): Promise<void> {
-  background.value = state.background ?? (matchMedia("(prefers-color-scheme: light)").matches ? "#f4f5f7" : "#0f1116");
-  scene.background(background.value);
+  backdrop(state.background ?? (matchMedia("(prefers-color-scheme: light)").matches ? "#f4f5f7" : "#0f1116"));
   // The token came with the link; addresses that are copied leave it out, and this tab remembers it.
   const token = new URLSearchParams(location.hash.replace(/^#/, "")).get("token") ?? sessionStorage.getItem("token");
   if (token) sessionStorage.setItem("token", token);

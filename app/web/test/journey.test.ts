@@ -167,6 +167,12 @@ test("numbers the box, and says how long things are", async () => {
   expect(ticks).toContain("20");
   const [words, width] = await page.$eval("#scale", (bar) => [bar.textContent, bar.getBoundingClientRect().width] as const);
   expect(Number(words)).toBeGreaterThan(0);
+  // They are seen on any background, whatever the colors of the panels.
+  for (const [color, light] of [["#ffffff", false], ["#000000", true]] as const) {
+    await page.fill("#background", color);
+    const ink = await page.$$eval("#ticks, #scale", (parts) => parts.map((part) => getComputedStyle(part).color.match(/\d+/g)!.map(Number)));
+    for (const levels of ink) expect(Math.min(...levels) > 128).toBe(light);
+  }
   expect(width).toBeGreaterThan(50);
   await page.close();
 });
@@ -379,9 +385,9 @@ test("shows ghosts of other steps, also while time plays, and links hold them", 
   await settled(page, cells(1, 12.5));
   const beside = () => pixel(page, 0.5, 0.5 - (12.05 / 77.4) * (800 / 600)); // 12.05 above the middle
   expect(await beside()).toEqual([0, 0, 0]);
-  const words = () => page.$$eval("#ghost-words div", (lines) => lines.map((line) => line.textContent!.replace("■ ", "")));
+  const words = () => page.$$eval("#ghost-parts .words div", (lines) => lines.map((line) => line.textContent!.replace("■ ", "")));
   await page.keyboard.press("g");
-  await page.waitForFunction(() => document.querySelectorAll("#ghost-words div").length === 2);
+  await page.waitForFunction(() => document.querySelectorAll("#ghost-parts .words div").length === 2);
   expect(await words()).toEqual(["0", "2"]);
   await settled(page, cells(1, 12.5));
   await drawn(page);
@@ -389,22 +395,22 @@ test("shows ghosts of other steps, also while time plays, and links hold them", 
   expect(blue[2]!).toBeGreaterThan(blue[0]! + 10);
   await page.fill("#ghost-parts input:first-child", "0");
   await page.press("#ghost-parts input:first-child", "Enter");
-  await page.waitForFunction(() => document.querySelectorAll("#ghost-words div").length === 1);
+  await page.waitForFunction(() => document.querySelectorAll("#ghost-parts .words div").length === 1);
   await page.waitForFunction(() => decodeURIComponent(location.hash).includes("ghosts=0/2/1/0.25"));
   await drawn(page);
   expect(await beside()).toEqual([0, 0, 0]);
   const again = await browser.newPage({ viewport: { width: 800, height: 600 } });
   await again.goto(page.url());
   await settled(again, cells(1, 12.5));
-  await again.waitForFunction(() => document.querySelectorAll("#ghost-words div").length === 1);
+  await again.waitForFunction(() => document.querySelectorAll("#ghost-parts .words div").length === 1);
   // Time goes on when the ghosts are there, too.
   await again.selectOption("#speed", "24");
   await again.evaluate(() => {
     const seen = new Set<string>();
     new MutationObserver(() => {
-      seen.add(`${document.getElementById("moment")!.textContent!.slice(5, 6)}: ${[...document.querySelectorAll("#ghost-words div")].map((line) => line.textContent!.slice(2)).join()}`);
+      seen.add(`${document.getElementById("moment")!.textContent!.slice(5, 6)}: ${[...document.querySelectorAll("#ghost-parts .words div")].map((line) => line.textContent!.slice(2)).join()}`);
       document.body.dataset["seen"] = [...seen].join(" ");
-    }).observe(document.getElementById("ghost-words")!, { childList: true });
+    }).observe(document.querySelector("#ghost-parts .words")!, { childList: true });
   });
   await again.click("#play");
   await again.waitForFunction(() => /1: 1,2/.test(document.body.dataset["seen"] ?? "") && /2: 2/.test(document.body.dataset["seen"] ?? ""));

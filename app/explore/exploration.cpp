@@ -311,6 +311,8 @@ void Exploration::set_start() {
         if (array > 0)
             linked.apply(session_->way_to_array(array), steps);
         session_->set_state(as_linked(std::move(linked), of_link_, *file_, link_screen()));
+        if (const std::string lost = lost_of_link(of_link_, *file_); !lost.empty())
+            print_note("{}", lost);
     }
     session_->set_state(start_from(session_->state(), options_, steps));
     show_models();

@@ -192,6 +192,16 @@ std::string word_of(const interaction::Plane& plane) {
                        normal.x, normal.y, normal.z);
 }
 
+/// The clip planes of a link: a list, or the one plane that earlier versions wrote.
+std::vector<interaction::Plane> cuts_of(const Words& settings) {
+    std::string planes = word_of(settings, "planes");
+    if (planes.empty()) {
+        planes = word_of(settings, "plane");
+        std::ranges::replace(planes, ',', '/');
+    }
+    return planes_of(planes, kMostLinkedCuts);
+}
+
 /// Cuts by planes: a state has one in any direction, and others across an axis are faces of its box. Of
 /// several oblique ones the first cuts.
 void cut_by(const std::vector<interaction::Plane>& planes, const index::SeriesInfo& info,
@@ -242,12 +252,7 @@ void cut_as_linked(ExplorerState& state, const Words& settings, const index::Ser
         if (glm::all(glm::lessThan(low, high)))
             state.clip_box = {true, low, high};
     }
-    std::string planes = word_of(settings, "planes");
-    if (planes.empty()) { // earlier versions wrote one plane
-        planes = word_of(settings, "plane");
-        std::ranges::replace(planes, ',', '/');
-    }
-    cut_by(planes_of(planes, kMostLinkedCuts), info, state);
+    cut_by(cuts_of(settings), info, state);
 }
 
 /// The settings of what cuts the surfaces; empty: nothing does.
@@ -376,6 +381,16 @@ ExplorerState as_linked(ExplorerState state, const Words& settings, const index:
     if (const auto view = numbers_of(word_of(settings, "view")); view.size() == 6)
         see_as_linked(state, view, numbers_of(word_of(settings, "up")), file, screen);
     return state;
+}
+
+std::string lost_of_link(const Words& settings, const index::IndexFile& file) {
+    const interaction::DataFrame data = data_frame(file.info());
+    const auto oblique = std::ranges::count_if(cuts_of(settings), [&](const auto& plane) {
+        return !interaction::axis_across(plane.normal, data);
+    });
+    return oblique < 2
+               ? ""
+               : fmt::format("the link has {} oblique clip planes; the first is shown", oblique);
 }
 
 std::string link_to(const std::string& address, const ExplorerState& state,

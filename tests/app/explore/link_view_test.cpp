@@ -125,6 +125,9 @@ TEST_F(LinkView, CutsByThePlanesOfAPageAsFarAsTheyAreOnePlaneAndABox) {
         EXPECT_EQ(is_cut(state, at), wanted) << at.x << ' ' << at.y << ' ' << at.z;
         cut += wanted;
     }
+    EXPECT_EQ(lost_of_link({{"planes", "1/2/3/1/0/0,1/2/3/0/0.6/0.8"}}, file_), "");
+    EXPECT_EQ(lost_of_link({{"planes", "1/2/3/1/1/0,1/2/3/1/0/0,1/2/3/0/1/1"}}, file_),
+              "the link has 2 oblique clip planes; the first is shown");
     EXPECT_GT(cut, kPoints / 4);
     EXPECT_LT(cut, kPoints);
 }

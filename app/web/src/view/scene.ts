@@ -221,7 +221,7 @@ export class Scene {
       if (!ghost) {
         ghost = new THREE.Mesh(geometryOf(mesh), new THREE.MeshStandardMaterial({ roughness: 0.45, metalness: 0, side: THREE.DoubleSide, transparent: true, depthWrite: false }));
         ghost.frustumCulled = false;
-        ghost.renderOrder = 1; // behind nothing that is translucent
+        ghost.renderOrder = 1; // drawn after translucent surfaces
         this.ghostMeshes.set(mesh, ghost);
         this.world.add(ghost);
       }

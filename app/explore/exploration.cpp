@@ -9,6 +9,7 @@
 #include "app/explore/explored_data.h"
 #include "app/explore/kept_session.h"
 #include "app/explore/later_advice.h"
+#include "app/explore/link_tools.h"
 #include "app/explore/live_setup.h"
 #include "app/explore/loading.h"
 #include "app/explore/pattern_exploration.h"

@@ -27,10 +27,6 @@ ExplorerState as_linked(ExplorerState state, const std::map<std::string, std::st
 std::size_t array_of_link(const std::map<std::string, std::string>& settings,
                           const index::IndexFile& file);
 
-/// What of a link `as_linked` has no setting for, in a line; empty: nothing.
-std::string lost_of_link(const std::map<std::string, std::string>& settings,
-                         const index::IndexFile& file);
-
 /// A link that shows what a state shows, in the page too; without any token.
 /// @param address of the index
 std::string link_to(const std::string& address, const ExplorerState& state,

@@ -3,6 +3,7 @@
 #include "app/explore/link_view.h"
 
 #include "app/config/first_placement.h"
+#include "app/explore/link_tools.h"
 #include "index/system/links/link.h"
 #include "interaction/tools/clip_box.h"
 #include "stereo/screen.h"

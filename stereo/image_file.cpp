@@ -22,7 +22,6 @@
 #include <string_view>
 #include <utility>
 #include <variant>
-#include <vector>
 
 namespace isochron::stereo {
 namespace {

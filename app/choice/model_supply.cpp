@@ -2,7 +2,6 @@
 #include "app/choice/model_supply.h"
 
 #include "app/text.h"
-#include "index/error.h"
 #include "index/readers/formats/model_file.h"
 #include "index/system/links/link.h"
 #include "index/system/whole_path.h"

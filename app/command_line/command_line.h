@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <functional>
 #include <initializer_list>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>

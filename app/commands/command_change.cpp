@@ -6,7 +6,6 @@
 #include "app/output/guarded_outputs.h"
 #include "app/telling.h"
 #include "app/text.h"
-#include "index/error.h"
 #include "index/extraction/extractor.h"
 #include "index/search/cell_change.h"
 #include "index/volume/instant_text.h"

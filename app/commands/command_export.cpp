@@ -10,7 +10,6 @@
 #include "app/output/guarded_outputs.h"
 #include "app/telling.h"
 #include "app/text.h"
-#include "index/error.h"
 #include "index/export/simplified_mesh.h"
 #include "index/export/surface_export.h"
 #include "index/file/color_source.h"

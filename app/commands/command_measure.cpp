@@ -9,7 +9,6 @@
 #include "app/output/guarded_outputs.h"
 #include "app/telling.h"
 #include "app/text.h"
-#include "index/error.h"
 #include "index/measure/measures.h"
 #include "index/system/new_file.h"
 #include "index/volume/instant_text.h"

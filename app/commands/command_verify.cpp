@@ -8,7 +8,6 @@
 #include "index/file/index_file.h"
 #include "index/file/index_states.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <unistd.h>

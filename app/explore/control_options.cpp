@@ -3,9 +3,6 @@
 
 #include "app/telling.h"
 
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <utility>
 
 namespace isochron::app {

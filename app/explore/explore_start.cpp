@@ -3,7 +3,6 @@
 
 #include "app/config/check_config.h"
 #include "app/config/config_words.h"
-#include "app/config/shipped_configs.h"
 #include "app/config/tracker_setup.h"
 #include "app/explore/drawing_options.h"
 #include "app/frame/empty_picture.h"

@@ -20,7 +20,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <utility>
-#include <vector>
 
 namespace isochron::app {
 namespace {

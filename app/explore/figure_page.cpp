@@ -22,7 +22,6 @@
 #include "app/version.h"
 #include "index/error.h"
 #include "index/system/input_file.h"
-#include "index/volume/time_unit.h"
 #include "interaction/error.h"
 #include "interaction/navigation/key_frames.h"
 #include "interaction/navigation/navigation.h"
@@ -38,7 +37,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <ranges>
 #include <utility>

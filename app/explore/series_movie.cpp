@@ -20,7 +20,6 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
-#include <vector>
 
 namespace isochron::app {
 namespace {

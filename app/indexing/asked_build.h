@@ -7,7 +7,6 @@
 #include "index/system/growing_file.h"
 #include "index/system/team.h"
 
-#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>

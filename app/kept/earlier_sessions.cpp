@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <functional>
 #include <sys/stat.h>
 #include <tuple>
 #include <utility>

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <span>
-#include <string>
 
 namespace isochron::app {
 namespace {

@@ -14,7 +14,6 @@
 #include "interaction/recording/key_film.h"
 #include "interaction/step_track.h"
 
-#include <fmt/format.h>
 #include <glm/common.hpp>
 
 #include <span>

@@ -1,7 +1,6 @@
 // What commands may write over.
 #include "app/output/guarded_outputs.h"
 
-#include "app/output/known_files.h"
 #include "app/output/movie_file.h"
 #include "index/error.h"
 #include "index/readers/formats/format.h"

@@ -9,7 +9,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <utility>
 #include <variant>
 
 namespace isochron::app {

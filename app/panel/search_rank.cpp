@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <numeric>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 namespace isochron::app {

@@ -1,8 +1,6 @@
 // Draws a cell once in every way in which cells are drawn.
 #include "app/scene/cell_warm_up.h"
 
-#include <algorithm>
-
 namespace isochron::app {
 
 CellWarmUp::CellWarmUp(const render::Gl& gl, const CellDrawing& drawing)

@@ -4,7 +4,6 @@
 #include "app/text.h"
 #include "render/gl/srgb.h"
 
-#include <fmt/format.h>
 #include <glm/common.hpp>
 
 #include <algorithm>

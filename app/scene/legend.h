@@ -5,7 +5,6 @@
 #include "app/scene/color_scale.h"
 #include "app/scene/overlay_colors.h"
 #include "index/volume/value_type.h"
-#include "interaction/commands.h"
 #include "render/passes/text_pass.h"
 
 #include <glm/vec2.hpp>

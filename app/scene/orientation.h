@@ -9,7 +9,6 @@
 #include "render/passes/text_pass.h"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace isochron::app {

@@ -1,11 +1,9 @@
 // Draws what the eyes see: the cells, the volume's box, the legend, the wand and the floor.
 #include "app/scene/scene.h"
 
-#include "app/scene/axis_labels.h"
 #include "app/scene/caption.h"
 #include "app/scene/font.h"
 #include "app/scene/look.h"
-#include "app/scene/orientation.h"
 #include "app/scene/overlay_colors.h"
 #include "interaction/navigation/navigation.h"
 #include "render/gl/driver.h"
@@ -18,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace isochron::app {
 namespace {

@@ -16,7 +16,6 @@
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
-#include <utility>
 
 namespace isochron::app {
 

@@ -3,7 +3,6 @@
 
 #include "app/end_in_time.h"
 #include "app/text.h"
-#include "index/error.h"
 #include "index/file/color_source.h"
 #include "index/measure/kept_pieces.h"
 #include "index/system/new_file.h"

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 namespace isochron::index {
 
 void expect_colors_of(const SeriesInfo& colors, const SeriesInfo& volume) {

@@ -2,7 +2,6 @@
 #include "index/search/index_search.h"
 
 #include "index/error.h"
-#include "index/file/step_view.h"
 #include "index/search/id_sort.h"
 #include "index/search/layer_search.h"
 #include "index/search/tree_of_file.h"

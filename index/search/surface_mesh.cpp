@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 #include <glm/vec3.hpp>
 
-#include <utility>
-
 namespace isochron::index {
 namespace {
 

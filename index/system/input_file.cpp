@@ -14,7 +14,6 @@
 #include <cstring>
 #include <tuple>
 #include <unordered_map>
-#include <utility>
 
 namespace isochron::index {
 namespace {

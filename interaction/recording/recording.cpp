@@ -9,7 +9,6 @@
 #include <istream>
 #include <utility>
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <fmt/format.h>

@@ -6,8 +6,6 @@
 
 #include <glm/vec2.hpp>
 
-#include <array>
-
 namespace isochron::app {
 
 /// A rectangle in panel pixels from the top left.

@@ -23,12 +23,7 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
-#include <string>
-#include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace isochron::app {
 namespace {

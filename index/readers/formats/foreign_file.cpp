@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <utility>
 
 namespace isochron::index {
 namespace {

@@ -13,8 +13,6 @@
 #include <cstring>
 #include <limits>
 #include <map>
-#include <string_view>
-#include <type_traits>
 
 namespace isochron::index {
 namespace {

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <span>
 #include <type_traits>
 
 namespace isochron::index {

@@ -19,10 +19,8 @@
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
-#include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 namespace isochron::index {
 namespace {

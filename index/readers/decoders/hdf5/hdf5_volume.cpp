@@ -1,7 +1,6 @@
 // Reads steps of HDF5 datasets, slab by slab.
 #include "index/readers/decoders/hdf5/hdf5_volume.h"
 
-#include "index/error.h"
 #include "index/readers/decoders/hdf5/hdf5_stated.h"
 #include "index/readers/formats/cropped_file.h"
 #include "index/readers/formats/stated/stated_attributes.h"
@@ -11,8 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace isochron::index {

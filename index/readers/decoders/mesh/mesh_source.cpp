@@ -6,7 +6,6 @@
 #include "index/lower_case.h"
 #include "index/readers/decoders/mesh/mesh_fields.h"
 #include "index/readers/formats/data_stream.h"
-#include "index/readers/formats/text_header.h"
 
 #include <fmt/format.h>
 

@@ -20,7 +20,6 @@
 #include <algorithm>
 #include <iterator>
 #include <sstream>
-#include <string_view>
 
 namespace isochron::index {
 namespace {

@@ -10,10 +10,8 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <map>
 #include <set>
-#include <span>
 #include <string_view>
 
 namespace isochron::index {

@@ -13,7 +13,6 @@
 #include <charconv>
 #include <cmath>
 #include <set>
-#include <utility>
 
 namespace isochron::index {
 namespace {

@@ -10,7 +10,6 @@
 #include "index/readers/formats/series/step_order.h"
 #include "index/readers/formats/series/vti_header_hash.h"
 #include "index/readers/formats/stored_file.h"
-#include "index/system/input_file.h"
 #include "index/utf8.h"
 #include "index/volume/time_unit.h"
 

@@ -15,13 +15,6 @@ namespace {
 
 thread_local std::size_t links = 0; ///< programs that this thread has linked
 
-struct ShaderKind {
-    static constexpr const char* kName = "shader";
-    static GLuint create(const Gl& gl, GLenum stage) { return gl.CreateShader(stage); }
-    static void destroy(const Gl& gl, GLuint name) { gl.DeleteShader(name); }
-};
-using Shader = GlObject<ShaderKind>;
-
 struct Stage {
     std::string_view extension, definition;
     GLenum kind;

@@ -10,11 +10,14 @@
 
 #include "app/command_line/command_reference.h"
 
+#include <fmt/core.h>
+
 #include <cstddef>
 #include <functional>
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -28,6 +31,10 @@ namespace isochron::app {
 class UsageError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
+    /// The message as a format with its values.
+    template <class... Values>
+    explicit UsageError(fmt::format_string<Values...> text, Values&&... values)
+        : std::runtime_error(fmt::format(text, std::forward<Values>(values)...)) {}
 };
 
 /// Thrown by the other processes of a job when rank 0 reports an error: they print nothing and

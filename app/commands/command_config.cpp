@@ -50,7 +50,7 @@ Config sound_config(const std::string& text, const std::string& source,
         const std::string what = error.what();
         if (!what.starts_with(name + ":"))
             throw;
-        throw ConfigError(fmt::format("{}{}", source, what.substr(what.find(": "))));
+        throw ConfigError("{}{}", source, what.substr(what.find(": ")));
     }
 }
 

@@ -70,10 +70,9 @@ Target target_of(const ExportArguments& arguments) {
     const index::SurfaceFormat* const by_extension =
         folder ? nullptr : index::surface_format_of(out);
     if (!by_name && !by_extension)
-        throw UsageError(fmt::format("--output: expected a name that ends in .ply, .stl, .obj, "
-                                     ".vtp, .glb, .usda or .csv, or a "
-                                     "folder and --format, got {}",
-                                     arguments.out));
+        throw UsageError("--output: expected a name that ends in .ply, .stl, .obj, .vtp, .glb, "
+                         ".usda or .csv, or a folder and --format, got {}",
+                         arguments.out);
     const index::SurfaceFormat& format = by_name ? *by_name : *by_extension;
     if (folder)
         return {&format, out / (arguments.file.stem().string() + std::string(format.extension))};
@@ -88,14 +87,13 @@ index::ValuesWish values_of(const ExportArguments& arguments, const index::Index
     const index::ColorSource source(file, number);
     const auto map = render::color_map_from_name(arguments.color_map);
     if (!map)
-        throw UsageError(fmt::format("--color-map: expected {}, got {}",
-                                     fmt::join(render::kColorMapNames, ", "), arguments.color_map));
+        throw UsageError("--color-map: expected {}, got {}",
+                         fmt::join(render::kColorMapNames, ", "), arguments.color_map);
     std::array<double, 2> range{source.array().low, source.array().high};
     if (!arguments.range.empty())
         range = {arguments.range[0], arguments.range[1]};
     if (!(range[0] < range[1]) && !arguments.range.empty())
-        throw UsageError(
-            fmt::format("--color-range: expected LOW below HIGH, got {} {}", range[0], range[1]));
+        throw UsageError("--color-range: expected LOW below HIGH, got {} {}", range[0], range[1]);
     return {.array = number, .color_of = [range, colors = render::color_map(*map)](float value) {
                 return color_at(colors, (value - range[0]) / (range[1] - range[0]));
             }};
@@ -105,12 +103,11 @@ index::ValuesWish values_of(const ExportArguments& arguments, const index::Index
 double factor_between(const std::string& from, const std::string& to) {
     const auto source = index::meters_in(from), wanted = index::meters_in(to);
     if (!wanted)
-        throw UsageError(
-            fmt::format("--length-unit: expected m, km, cm, mm, um, nm, in or ft, got {}", to));
+        throw UsageError("--length-unit: expected m, km, cm, mm, um, nm, in or ft, got {}", to);
     if (!source)
-        throw UsageError(fmt::format(
+        throw UsageError(
             "--length-unit {}: the data have {}; build the index with --length-unit", to,
-            from.empty() ? "no unit of length" : "the unit " + from + ", which is not a length"));
+            from.empty() ? "no unit of length" : "the unit " + from + ", which is not a length");
     return *source / *wanted;
 }
 
@@ -163,16 +160,15 @@ void check(const ExportArguments& arguments, const index::SurfaceFormat& format)
           Need{"--compress", arguments.compress, &index::SurfaceFormat::with_quantized},
           Need{"--rate", arguments.rate.has_value(), &index::SurfaceFormat::all_in_one}})
         if (need.given && !(format.*need.held))
-            throw UsageError(fmt::format("{}: is for {}, not {}", need.option,
-                                         fmt::join(format_names(need.held), ", "), format.name));
+            throw UsageError("{}: is for {}, not {}", need.option,
+                             fmt::join(format_names(need.held), ", "), format.name);
     for (const auto& [option, given] :
          {std::pair("--dust", arguments.cuts.dust > 0),
           std::pair("--crop", arguments.cuts.crop.has_value()),
           std::pair("--clip", !arguments.cuts.clip.empty()),
           std::pair("--simplify", arguments.cuts.simplify.has_value())})
         if (given && format.of_cells)
-            throw UsageError(
-                fmt::format("{}: is for triangles, and {} holds cells", option, format.name));
+            throw UsageError("{}: is for triangles, and {} holds cells", option, format.name);
     if (arguments.compress && !mesh_packing())
         throw UsageError("--compress: this build is without meshoptimizer (libmeshoptimizer-dev)");
 }
@@ -247,8 +243,8 @@ void keep_few_steps(const index::IndexFile& file) {
 
 void run_export(const ExportArguments& arguments) {
     if (arguments.isovalues.size() > index::kMostSurfaces)
-        throw UsageError(fmt::format("--isovalue: expected at most {} of them, got {}",
-                                     index::kMostSurfaces, arguments.isovalues.size()));
+        throw UsageError("--isovalue: expected at most {} of them, got {}", index::kMostSurfaces,
+                         arguments.isovalues.size());
     const Target target = target_of(arguments);
     check(arguments, *target.format);
     // Each value is looked at twice, soon after each other: to find cells and to place vertices.

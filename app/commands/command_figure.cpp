@@ -5,7 +5,6 @@
 #include "app/telling.h"
 #include "index/system/new_file.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -28,9 +27,8 @@ void write_figure(const FigureOptions& options) {
     constexpr std::array kFormats{".pdf", ".png", ".tif", ".tiff"};
     const fs::path out(options.out);
     if (std::ranges::find(kFormats, out.extension().string()) == kFormats.end())
-        throw UsageError(
-            fmt::format("--output: expected a name that ends in .pdf, .png, .tif or .tiff, got {}",
-                        options.out));
+        throw UsageError("--output: expected a name that ends in .pdf, .png, .tif or .tiff, got {}",
+                         options.out);
     const FigureFile figure = read_figure(options.file);
     std::vector<fs::path> data;
     Reads reads{{options.file}, nullptr};

@@ -50,9 +50,9 @@ void run_info(const InfoArguments& given) {
         (!index::is_link(first) && std::filesystem::path(first).extension() != ".isochron" &&
          !(std::filesystem::exists(first, ignored) && index::is_index(first)));
     if (is_data && given.tree)
-        throw UsageError(fmt::format("--tree: {} is not an index", first));
+        throw UsageError("--tree: {} is not an index", first);
     if (is_data && given.measure_time)
-        throw UsageError(fmt::format("--measure-time: {} is not an index", first));
+        throw UsageError("--measure-time: {} is not an index", first);
     if (is_data)
         return describe_sources(arguments);
     const auto file = open_array(first, arguments.read.array);

@@ -50,7 +50,7 @@ std::vector<std::size_t> chosen(const MeasureArguments& arguments) {
             std::ranges::find(arguments.measures, all[i].name) != arguments.measures.end();
         const bool there = all[i].unit != index::MeasureUnit::value || arguments.on_surface;
         if (named && !there)
-            throw UsageError(fmt::format("--measure {}: needs --on-surface ARRAY", all[i].name));
+            throw UsageError("--measure {}: needs --on-surface ARRAY", all[i].name);
         if (named || (arguments.measures.empty() && there))
             numbers.push_back(i);
     }

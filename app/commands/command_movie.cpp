@@ -160,9 +160,8 @@ void check_output(const MovieOptions& options) {
     if (is_movie_folder(out))
         return;
     if (std::ranges::find(kSuffixes, out.extension().string()) == kSuffixes.end())
-        throw UsageError(
-            fmt::format("--output: expected a name that ends in {}, or a folder, got {}",
-                        fmt::join(kSuffixes, ", "), options.out));
+        throw UsageError("--output: expected a name that ends in {}, or a folder, got {}",
+                         fmt::join(kSuffixes, ", "), options.out);
     index::NewFile{out};
 }
 
@@ -171,10 +170,10 @@ void check_source(const MovieOptions& options, bool of_index) {
     const SeriesMovie& series = options.series;
     if (!of_index && (series.isovalue || !series.steps.empty() || series.between || series.turn ||
                       !series.film.empty() || !series.keys.empty()))
-        throw UsageError(fmt::format(
+        throw UsageError(
             "{}: a recording has its own view, isovalues, steps and moments between them; "
             "--isovalue, --steps, --between, --keys, --film and --turn go with an index",
-            options.recording));
+            options.recording);
     if (!series.keys.empty() && (series.turns() || !series.film.empty() || !series.steps.empty()))
         throw UsageError("--keys: the keys say where to look and which steps pass; --film, --turn "
                          "and --steps go without them");
@@ -193,16 +192,16 @@ void check_source(const MovieOptions& options, bool of_index) {
     if (options.panorama && options.size.size() == 2 &&
         (options.size[0] != options.size[1] || options.size[0] % 2 != 0 ||
          options.size[0] < PanoramaPlan::kNarrowest))
-        throw UsageError(fmt::format("--size: a panorama of both eyes is a square; expected the "
-                                     "same even number twice, from {} on, got {} {}",
-                                     PanoramaPlan::kNarrowest, options.size[0], options.size[1]));
+        throw UsageError("--size: a panorama of both eyes is a square; expected the same even "
+                         "number twice, from {} on, got {} {}",
+                         PanoramaPlan::kNarrowest, options.size[0], options.size[1]);
     if (options.panorama && writes_recording(options))
         throw UsageError("--panorama: a recording has no pictures; give the option to the movie "
                          "that is made of it");
     if (!of_index && writes_recording(options))
-        throw UsageError(fmt::format("{}: it is a recording already; a recording is made of an "
-                                     "index: isochron movie INDEX --turn -o film.jsonl",
-                                     options.recording));
+        throw UsageError("{}: it is a recording already; a recording is made of an index: isochron "
+                         "movie INDEX --turn -o film.jsonl",
+                         options.recording);
     if (of_index && options.data)
         throw UsageError("--data goes with a recording; an index is the data itself");
 }

@@ -93,9 +93,8 @@ std::optional<index::SearchMethod> method_of(const QueryArguments& arguments,
         if (index::kSearchMethodNames[i] != arguments.method)
             continue;
         if (!index::can_search(file, method))
-            throw index::Error(
-                fmt::format("{}: has no search structure {}; isochron info lists those it has",
-                            arguments.file.string(), arguments.method));
+            throw index::Error("{}: has no search structure {}; isochron info lists those it has",
+                               arguments.file.string(), arguments.method);
         return method;
     }
     return std::nullopt;
@@ -181,8 +180,8 @@ void run_query(const QueryArguments& arguments) {
     const index::Instant at = index::instant_named(*file, arguments.step, arguments.fraction);
     warn_beyond(arguments.isovalue, *file);
     if (arguments.level >= file->detail_levels())
-        throw index::Error(fmt::format("{}: level {}, expected 0 to {}", arguments.file.string(),
-                                       arguments.level, file->detail_levels() - 1));
+        throw index::Error("{}: level {}, expected 0 to {}", arguments.file.string(),
+                           arguments.level, file->detail_levels() - 1);
     if (arguments.level > 0 && !arguments.method.empty())
         throw UsageError("--method is for level 0 only");
     if (!arguments.ids.empty())

@@ -42,14 +42,13 @@ struct ReproduceOptions {
 PictureNote note_in(const fs::path& picture) {
     const std::string text = note_text_in(picture);
     if (text.empty())
-        throw interaction::Error(fmt::format("{}: it has no note of what it shows: isochron has "
-                                             "not written it, or another program has "
-                                             "saved it again",
-                                             picture.string()));
+        throw interaction::Error("{}: it has no note of what it shows: isochron has not written "
+                                 "it, or another program has saved it again",
+                                 picture.string());
     try {
         return note_from(text);
     } catch (const interaction::Error& error) {
-        throw interaction::Error(fmt::format("{}: {}", picture.string(), error.what()));
+        throw interaction::Error("{}: {}", picture.string(), error.what());
     }
 }
 
@@ -63,9 +62,9 @@ fs::path data_path(const ReproduceOptions& options, const PictureNote& note) {
          {fs::path(options.picture).parent_path() / note.data, fs::path(note.data)})
         if (!note.data.empty() && fs::is_regular_file(path, ignored))
             return path;
-    throw interaction::Error(fmt::format("{}: it shows {} (hash {}), which is not in the picture's "
-                                         "folder; give its path with --data",
-                                         options.picture, note.data, note.data_hash));
+    throw interaction::Error("{}: it shows {} (hash {}), which is not in the picture's folder; "
+                             "give its path with --data",
+                             options.picture, note.data, note.data_hash);
 }
 
 Config config_for(const ReproduceOptions& options, const PictureNote& note) {
@@ -86,8 +85,8 @@ Config config_for(const ReproduceOptions& options, const PictureNote& note) {
         window.fullscreen = false;
     if (note.part.shows != "room") {
         if (note.part.window >= windows.size())
-            throw interaction::Error(fmt::format("{}: it shows window {} of {}", options.picture,
-                                                 note.part.window + 1, windows.size()));
+            throw interaction::Error("{}: it shows window {} of {}", options.picture,
+                                     note.part.window + 1, windows.size());
         windows[note.part.window].size = note.size;
     }
     return config;
@@ -133,10 +132,10 @@ MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
         print_note("{}", other);
     if (data_hash_of(*file) != note.data_hash) {
         if (!options.any_data)
-            throw interaction::Error(fmt::format(
-                "{}: made of other data: expected hash {}, {} has {} (--any-data draws them and "
-                "counts the pixels that differ)",
-                options.picture, note.data_hash, data.string(), data_hash_of(*file)));
+            throw interaction::Error("{}: made of other data: expected hash {}, {} has {} "
+                                     "(--any-data draws them and counts the pixels that differ)",
+                                     options.picture, note.data_hash, data.string(),
+                                     data_hash_of(*file));
         made.differs.push_back(fmt::format("data: hash {}, {} has {}", note.data_hash,
                                            data.string(), data_hash_of(*file)));
     }
@@ -145,8 +144,8 @@ MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
     for (const std::string& refused : state.refusals(note.state, file->info().steps())) {
         if (!options.any_data)
             throw interaction::Error(
-                fmt::format("{}: its state does not fit the data: {} (--any-data goes on without)",
-                            options.picture, refused));
+                "{}: its state does not fit the data: {} (--any-data goes on without)",
+                options.picture, refused);
         made.differs.push_back("state: " + refused);
     }
     state.resume(note.state, file->info().steps());
@@ -171,9 +170,8 @@ MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
                   }
               });
     if (made.image.rgba.empty())
-        throw interaction::Error(
-            fmt::format("{}: it shows a {} that its configuration does not have", options.picture,
-                        note.part.shows));
+        throw interaction::Error("{}: it shows a {} that its configuration does not have",
+                                 options.picture, note.part.shows);
     return made;
 }
 
@@ -243,11 +241,10 @@ bool reproduced_figure(const ReproduceOptions& options) {
         const auto file = open_index_to_show(data.back());
         if (i < record.hashes.size() && data_hash_of(*file) != record.hashes[i] &&
             !options.any_data)
-            throw interaction::Error(fmt::format("{}: panel {} was made of other data: expected "
-                                                 "hash {}, {} has {} (--any-data draws "
-                                                 "them)",
-                                                 options.picture, i + 1, record.hashes[i],
-                                                 data.back().string(), data_hash_of(*file)));
+            throw interaction::Error("{}: panel {} was made of other data: expected hash {}, {} "
+                                     "has {} (--any-data draws them)",
+                                     options.picture, i + 1, record.hashes[i], data.back().string(),
+                                     data_hash_of(*file));
     }
     print_report("{}: a figure of {} panel{}, by {}\n", options.picture, figure.panels.size(),
                  figure.panels.size() == 1 ? "" : "s", record.program);
@@ -285,7 +282,7 @@ void reproduce(const ReproduceOptions& options) {
     const PictureNote note = note_in(options.picture);
     describe(options.picture, note);
     if (note.movie)
-        throw interaction::Error(fmt::format(
+        throw interaction::Error(
             "{}: a movie is made again by `isochron movie {} --rate {} -o MOVIE{}{}`, of the {}",
             options.picture, note.movie->recording.empty() ? "INDEX" : "RECORDING",
             note.movie->rate,
@@ -295,12 +292,12 @@ void reproduce(const ReproduceOptions& options) {
             options.any_data ? " --any-data" : "",
             note.movie->recording.empty()
                 ? fmt::format("data with hash {}", note.data_hash)
-                : fmt::format("recording with hash {}", note.movie->recording)));
+                : fmt::format("recording with hash {}", note.movie->recording));
     for (const auto& [shows, words] : {std::pair("headset", "a headset's mirror"),
                                        std::pair("panorama", "a panorama of many views")})
         if (note.part.shows == shows)
-            throw interaction::Error(
-                fmt::format("{}: it shows {}, which is not made again", options.picture, words));
+            throw interaction::Error("{}: it shows {}, which is not made again", options.picture,
+                                     words);
     MadePicture made = make(options, note);
     const auto bytes = stereo::encoded_image(made.image, options.picture, text_of(note));
     constexpr std::uint64_t kLargest = std::uint64_t{1} << 34;

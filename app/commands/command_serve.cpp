@@ -65,23 +65,21 @@ bool is_own(const fs::path& folder) {
 /// Refuses what the page would refuse, and what is not to be shown to others.
 void check_story(const fs::path& story) {
     if (!is_story_name(story.string()))
-        throw UsageError(
-            fmt::format("--story {}: expected a file NAME{}", story.string(), kStoryEnding));
+        throw UsageError("--story {}: expected a file NAME{}", story.string(), kStoryEnding);
     const std::string text = index::read_text(story, kLargestStory);
     if (is_session_text(text))
-        throw index::Error(
-            fmt::format("{}: a session, which names folders of this machine: expected a story, as "
-                        "\"save as story\" in the list of keys makes it",
-                        story.string()));
+        throw index::Error("{}: a session, which names folders of this machine: expected a story, "
+                           "as \"save as story\" in the list of keys makes it",
+                           story.string());
     story_in(text, story.string());
 }
 
 void write_site(const ServeArguments& arguments) {
     const fs::path& folder = arguments.write_site;
     if (!is_own(folder))
-        throw index::Error(fmt::format("{}: expected a new or empty folder, or one that `isochron "
-                                       "serve --write-site` wrote; nothing is written",
-                                       folder.string()));
+        throw index::Error("{}: expected a new or empty folder, or one that `isochron serve "
+                           "--write-site` wrote; nothing is written",
+                           folder.string());
     std::vector<fs::path> all = arguments.files;
     if (!arguments.story.empty())
         all.push_back(arguments.story);
@@ -150,10 +148,9 @@ void wait_for_signal() {
 void run_serve(const ServeArguments& arguments) {
     for (const fs::path& file : arguments.files)
         if (open_index(file)->referral())
-            throw index::Error(
-                fmt::format("{}: has no copy of its values (it was built with --refer); "
-                            "isochron build {} -o NEW.isochron makes one that has",
-                            file.string(), file.string()));
+            throw index::Error("{}: has no copy of its values (it was built with --refer); "
+                               "isochron build {} -o NEW.isochron makes one that has",
+                               file.string(), file.string());
     if (!arguments.story.empty())
         check_story(arguments.story);
     if (arguments.follow && !arguments.write_site.empty())

@@ -124,13 +124,13 @@ Json timing_rows(const fs::path& file) {
     try {
         report = Json::parse(in);
     } catch (const Json::exception& mistake) {
-        throw index::Error(fmt::format("{}: not a timing report: {}", file.string(),
-                                       index::json_mistake(mistake)));
+        throw index::Error("{}: not a timing report: {}", file.string(),
+                           index::json_mistake(mistake));
     }
     if (!report.is_object() || !report.contains("rows") || !report["rows"].is_array())
-        throw index::Error(fmt::format("{}: expected a recording, a session or a timing report of "
-                                       "`isochron replay --report`",
-                                       file.string()));
+        throw index::Error(
+            "{}: expected a recording, a session or a timing report of `isochron replay --report`",
+            file.string());
     Json rows = Json::array();
     for (const Json& each : report["rows"]) {
         Json row = Json::object();
@@ -142,7 +142,7 @@ Json timing_rows(const fs::path& file) {
 
 Table table_of(const fs::path& file) {
     if (!std::ifstream(file))
-        throw index::Error(fmt::format("{}: cannot be read", file.string()));
+        throw index::Error("{}: cannot be read", file.string());
     MarkRows marks;
     if (names_format(file, "isochron recording")) {
         const interaction::Recording recording = read_recording(file);

@@ -51,7 +51,7 @@ json commands_of(const std::vector<std::string>& words) {
         if (word.starts_with('{')) {
             const json object = json::parse(word, nullptr, false);
             if (!object.is_object())
-                throw UsageError(fmt::format("tell: expected an object as JSON, got {}", word));
+                throw UsageError("tell: expected an object as JSON, got {}", word);
             commands.update(object);
         } else if (equals != std::string::npos) {
             const std::string value = word.substr(equals + 1);
@@ -60,9 +60,9 @@ json commands_of(const std::vector<std::string>& words) {
         } else if (happens_once(word)) {
             commands[word] = true;
         } else {
-            throw UsageError(fmt::format("tell: expected KEY=VALUE, an object as JSON, undo, redo, "
-                                         "save, screenshot, copy or quit, got {}",
-                                         word));
+            throw UsageError("tell: expected KEY=VALUE, an object as JSON, undo, redo, save, "
+                             "screenshot, copy or quit, got {}",
+                             word);
         }
     }
     return commands;
@@ -126,9 +126,8 @@ void check(const TellArguments& arguments, const ControlRequest& request) {
         throw UsageError(writes ? fmt::format("tell {}: needs -o FILE", arguments.words.front())
                                 : "tell: -o is for picture and cells");
     if (request.verb == ControlVerb::picture && !stereo::is_picture_name(*arguments.out))
-        throw UsageError(fmt::format("-o: expected a name that ends in .png, .exr, .tiff or .jpg, "
-                                     "got {}",
-                                     *arguments.out));
+        throw UsageError("-o: expected a name that ends in .png, .exr, .tiff or .jpg, got {}",
+                         *arguments.out);
     if (writes)
         guard_outputs({{*arguments.out, request.verb == ControlVerb::picture ? OutputKind::picture
                                                                              : OutputKind::ids}},
@@ -140,7 +139,7 @@ void run_tell(const TellArguments& arguments) {
     try {
         request = request_of(arguments);
     } catch (const interaction::Error& error) {
-        throw UsageError(fmt::format("tell: {}", error.what()));
+        throw UsageError("tell: {}", error.what());
     }
     check(arguments, request);
     ControlClient client(control_address(arguments.socket), arguments.token_file);

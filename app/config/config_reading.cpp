@@ -324,9 +324,8 @@ Config read_config(const std::filesystem::path& path) {
     try {
         text = index::read_text(path, kMostBytes);
     } catch (const index::Error& error) {
-        throw ConfigError(fmt::format("{}; expected a TOML file or the name of a shipped "
-                                      "configuration ({})",
-                                      error.what(), fmt::join(shipped_config_names(), ", ")));
+        throw ConfigError("{}; expected a TOML file or the name of a shipped configuration ({})",
+                          error.what(), fmt::join(shipped_config_names(), ", "));
     }
     return parse_config(text, path.string());
 }

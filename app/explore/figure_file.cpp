@@ -152,7 +152,7 @@ class PanelReader {
                 interaction::commands_from({{"keys", json::array({key})}}, "panel").keys->front();
             merge(panel.key, shown);
         } catch (const interaction::Error& error) {
-            throw ConfigError(fmt::format("{}:{}: {}", name_.string(), panel.line, error.what()));
+            throw ConfigError("{}:{}: {}", name_.string(), panel.line, error.what());
         }
     }
 
@@ -199,8 +199,8 @@ FigureFile parse_figure(const std::string& text, const fs::path& name,
     try {
         parsed = toml::parse(text);
     } catch (const toml::parse_error& mistake) {
-        throw ConfigError(fmt::format("{}:{}: {}", name.string(), mistake.source().begin.line,
-                                      mistake.description()));
+        throw ConfigError("{}:{}: {}", name.string(), mistake.source().begin.line,
+                          mistake.description());
     }
     FigureFile figure;
     figure.text = text;

@@ -8,8 +8,6 @@
 #include "app/telling.h"
 #include "index/system/links/link.h"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 
 namespace isochron::app {
@@ -125,18 +123,17 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
         path = (fs::path(options.recording).parent_path() / header.data).string();
         if (!fs::exists(path, ignored))
             throw interaction::Error(
-                fmt::format("{}: recorded on {}, which was not found; give its path with --data",
-                            options.recording, header.data));
+                "{}: recorded on {}, which was not found; give its path with --data",
+                options.recording, header.data);
     }
     auto file = open_index_to_show(path, config.memory.cache_bytes());
     if (const std::string note = other_reading(options.recording, header.reading, *file);
         !note.empty())
         print_note("{}", note);
     if (!options.any_data && !other_data(header, *file).empty())
-        throw interaction::Error(
-            fmt::format("{}: recorded on other data: expected hash {}, {} has {} "
-                        "(--any-data replays all the same)",
-                        options.recording, header.data_hash, path, data_hash_of(*file)));
+        throw interaction::Error("{}: recorded on other data: expected hash {}, {} has {} "
+                                 "(--any-data replays all the same)",
+                                 options.recording, header.data_hash, path, data_hash_of(*file));
     return file;
 }
 

@@ -43,7 +43,7 @@ std::vector<std::uint64_t> numbers_of(std::string_view text, const std::string& 
                                       const std::string& expected) {
     if (auto numbers = whole_numbers(text, ":,"))
         return *std::move(numbers);
-    throw UsageError(fmt::format("{} {}, expected {}", option, text, expected));
+    throw UsageError("{} {}, expected {}", option, text, expected);
 }
 
 /// `X0:X1,Y0:Y1,Z0:Z1`, both ends named.
@@ -55,7 +55,7 @@ std::array<std::array<std::uint32_t, 2>, 3> crop_of(const std::string& text) {
     const auto numbers = numbers_of(text, "--crop", expected);
     std::array<std::array<std::uint32_t, 2>, 3> crop{};
     if (form != ":,:,:" || std::ranges::any_of(numbers, [](auto n) { return n > 65536; }))
-        throw UsageError(fmt::format("--crop {}, expected {}", text, expected));
+        throw UsageError("--crop {}, expected {}", text, expected);
     for (std::size_t i = 0; i < 6; ++i)
         crop[i / 2][i % 2] = static_cast<std::uint32_t>(numbers[i]);
     return crop;
@@ -68,7 +68,7 @@ std::array<std::uint32_t, 3> stride_of(const std::string& text) {
         numbers.resize(3, numbers.front());
     if (numbers.size() != 3 || text.find(':') != text.npos ||
         std::ranges::any_of(numbers, [](auto n) { return n < 1 || n > 65536; }))
-        throw UsageError(fmt::format("--stride {}, expected {}", text, expected));
+        throw UsageError("--stride {}, expected {}", text, expected);
     return {static_cast<std::uint32_t>(numbers[0]), static_cast<std::uint32_t>(numbers[1]),
             static_cast<std::uint32_t>(numbers[2])};
 }
@@ -79,7 +79,7 @@ std::array<std::uint64_t, 3> steps_of_text(const std::string& text) {
     const auto numbers = numbers_of(text, "--steps", expected);
     if (numbers.size() > 3 || text.find(',') != text.npos ||
         (numbers.size() == 3 && numbers[2] == 0))
-        throw UsageError(fmt::format("--steps {}, expected {}", text, expected));
+        throw UsageError("--steps {}, expected {}", text, expected);
     return {numbers[0], numbers.size() > 1 ? numbers[1] : numbers[0],
             numbers.size() == 3 ? numbers[2] : 1};
 }
@@ -119,16 +119,16 @@ BuildArguments with_path_within(BuildArguments arguments) {
     if (arguments.all_arrays && !arguments.arrays.empty())
         throw UsageError("--all-arrays and --array: expected one of them, not both");
     if (several && arguments.read.component)
-        throw UsageError("--component: with several arrays add it to a name: --array "
-                         "velocity.magnitude");
+        throw UsageError(
+            "--component: with several arrays add it to a name: --array velocity.magnitude");
     if (several && arguments.read.value_unit)
         throw UsageError("--value-unit: expected with one array only");
     if (!arguments.arrays.empty())
         arguments.read.array = arguments.arrays.front();
     const auto path = take_path_within(arguments.files);
     if (path && arguments.read.array)
-        throw UsageError(fmt::format("--array {} and {} in the name of a file: expected one",
-                                     *arguments.read.array, *path));
+        throw UsageError("--array {} and {} in the name of a file: expected one",
+                         *arguments.read.array, *path);
     if (path)
         arguments.read.array = path;
     return arguments;
@@ -175,8 +175,8 @@ index::TierSet tiers_of(const std::string& list) {
         const auto tier =
             index::tier_from_name(index::is_former_tier(name) ? std::string_view("bricks") : name);
         if (!tier)
-            throw UsageError(fmt::format("--tiers: {}: expected none, or some of {}", name,
-                                         fmt::join(index::kTierNames, ",")));
+            throw UsageError("--tiers: {}: expected none, or some of {}", name,
+                             fmt::join(index::kTierNames, ","));
         tiers = tiers.with(*tier);
     }
     return tiers;

@@ -164,8 +164,7 @@ KeptFrames::KeptFrames(const fs::path& movie, const std::string& question)
     if (!open || !is_own(open.number()))
         return;
     if (::flock(open.number(), LOCK_EX | LOCK_NB) != 0)
-        throw index::Error(
-            fmt::format("{}: another process is making this movie", movie_.string()));
+        throw index::Error("{}: another process is making this movie", movie_.string());
     open_ = std::move(open);
     keeps_ = true;
 }

@@ -6,8 +6,6 @@
 #include "index/search/layer_search.h"
 #include "index/search/tree_of_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -124,7 +122,7 @@ SearchMethod cheapest_method(const IndexFile& file) {
 
 StepView step_of_query(const IndexFile& file, Instant at, std::span<const double> isovalues) {
     if (const std::size_t steps = file.info().steps(); at.step >= steps)
-        throw Error(fmt::format("step {}: expected 0 to {}", at.step, steps - 1));
+        throw Error("step {}: expected 0 to {}", at.step, steps - 1);
     return step_of(file, at, isovalues);
 }
 

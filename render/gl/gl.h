@@ -7,8 +7,11 @@
 
 #include "render/gl/drawn_by.h"
 
+#include <fmt/core.h>
+
 #include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include <GL/glcorearb.h>
 
@@ -19,6 +22,10 @@ namespace isochron::render {
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
+    /// The message as a format with its values.
+    template <class... Values>
+    explicit Error(fmt::format_string<Values...> text, Values&&... values)
+        : std::runtime_error(fmt::format(text, std::forward<Values>(values)...)) {}
 };
 
 /// Returns the address of a GL entry point by its full name (`glClear`), or null.

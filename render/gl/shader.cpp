@@ -27,7 +27,7 @@ const Stage& stage_of(std::string_view name) {
     for (const Stage& stage : kStages)
         if (name.ends_with(stage.extension))
             return stage;
-    throw Error(fmt::format("{}: unknown kind of shader, expected .vert, .frag or .comp", name));
+    throw Error("{}: unknown kind of shader, expected .vert, .frag or .comp", name);
 }
 
 /// The number of a file for #line, as GLSL names files by numbers.
@@ -97,8 +97,8 @@ Shader compile(const Gl& gl, const ShaderSource& source, std::string_view prelud
         gl.GetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &log_length);
         std::string log(std::max(log_length, 1), '\0');
         gl.GetShaderInfoLog(shader.name(), log_length, nullptr, log.data());
-        throw Error(fmt::format("{}: shader does not compile, where {}: {}", source.name,
-                                numbers_of(source, included), log.c_str()));
+        throw Error("{}: shader does not compile, where {}: {}", source.name,
+                    numbers_of(source, included), log.c_str());
     }
     return shader;
 }
@@ -109,7 +109,7 @@ const ShaderSource& shader_file(std::string_view name) {
     for (const ShaderSource& file : shader_files())
         if (file.name == name)
             return file;
-    throw Error(fmt::format("{}: no such shader file", name));
+    throw Error("{}: no such shader file", name);
 }
 
 bool has_extension(const Gl& gl, std::string_view name) {
@@ -140,8 +140,7 @@ Program link_program(const Gl& gl, const std::vector<ShaderSource>& sources,
         names.reserve(sources.size());
         for (const ShaderSource& source : sources)
             names.push_back(source.name);
-        throw Error(
-            fmt::format("{}: shaders do not link: {}", fmt::join(names, ", "), log.c_str()));
+        throw Error("{}: shaders do not link: {}", fmt::join(names, ", "), log.c_str());
     }
     ++links;
     return program;

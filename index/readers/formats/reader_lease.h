@@ -4,8 +4,6 @@
 #include "index/error.h"
 #include "index/readers/process/reader_pool.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
@@ -117,7 +115,7 @@ class ReaderLease {
     };
 
     [[noreturn]] void fail(const std::string& why) const {
-        throw Error(fmt::format("{}: cannot be read: {}", path_.string(), why));
+        throw Error("{}: cannot be read: {}", path_.string(), why);
     }
     void start(bool again);
 

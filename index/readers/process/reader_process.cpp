@@ -61,9 +61,8 @@ void expect_unlocked(const std::filesystem::path& path) {
         return;
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file && ::flock(file.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-        throw Error(fmt::format("{}: cannot be read: another program is writing it, and has "
-                                "locked it",
-                                path.string()));
+        throw Error("{}: cannot be read: another program is writing it, and has locked it",
+                    path.string());
 }
 
 /// Waits for the end of a process that has closed its socket: it may end a moment after that.
@@ -107,7 +106,7 @@ ReaderProcess::ReaderProcess(std::string program, ReaderLimits limits, const Lef
     const int failure =
         ::posix_spawn(&process_, file.c_str(), &setup.files, &setup.attributes, arguments, environ);
     if (failure != 0)
-        throw Error(fmt::format("{}: cannot be started: {}", file, std::strerror(failure)));
+        throw Error("{}: cannot be started: {}", file, std::strerror(failure));
     socket_.emplace(std::move(ours));
     socket_->send(encoded(readable)); // where the reader has ended, the first reply says so
 }

@@ -28,7 +28,7 @@ class DicomSeries final : public DecodedFile {
         }
         std::vector<DicomVolume> volumes = dicom_volumes(files_);
         if (volumes.empty())
-            throw Error(fmt::format("{}: holds no image", path.string()));
+            throw Error("{}: holds no image", path.string());
         choose(volumes, options, path.string());
         describe();
         if (without > 0)

@@ -93,7 +93,7 @@ class AthenaFile final : public DecodedFile {
 
   private:
     [[noreturn]] void fail(const std::string& what) const {
-        throw Error(fmt::format("{}: {}", file_->name(), what));
+        throw Error("{}: {}", file_->name(), what);
     }
 
     std::vector<double> values_of(const char* path, std::size_t count) const {

@@ -10,8 +10,6 @@
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/unread_fields.h"
 
-#include <fmt/format.h>
-
 #include <vtkAlgorithm.h>
 #include <vtkDataObject.h>
 #include <vtkImageData.h>
@@ -37,7 +35,7 @@ std::vector<double> times_of(vtkAlgorithm& reader, const std::string& file) {
     const double* first = out->Get(key);
     std::vector<double> times(first, first + out->Length(key));
     if (std::ranges::adjacent_find(times, std::greater_equal<>()) != times.end())
-        throw Error(fmt::format("{}: its times do not increase", file));
+        throw Error("{}: its times do not increase", file);
     return times;
 }
 
@@ -78,7 +76,7 @@ class Mesh {
         else
             source_.reader->UpdateTimeStep(times_[step]);
         if (!source_.reader->GetOutputDataObject(0))
-            throw Error(fmt::format("{}: holds no mesh that VTK knows", path_.string()));
+            throw Error("{}: holds no mesh that VTK knows", path_.string());
         return data();
     }
 
@@ -93,9 +91,9 @@ class MeshFile final : public DecodedFile {
   public:
     MeshFile(fs::path path, const ReadOptions& options) : path_(std::move(path)) {
         if (!options.resample)
-            throw Error(fmt::format("{}: a mesh, expected a regular grid; --resample NX NY NZ or "
-                                    "--resample-by-cell makes one of it",
-                                    path_.string()));
+            throw Error("{}: a mesh, expected a regular grid; --resample NX NY NZ or "
+                        "--resample-by-cell makes one of it",
+                        path_.string());
         static SharedDecode<Mesh> open;
         mesh_ = open.of(path_, options,
                         [&] { return std::make_shared<Mesh>(path_, *options.resample); });

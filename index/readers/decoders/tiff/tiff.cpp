@@ -57,10 +57,9 @@ TiffStack stack_in(const TiffFile& file, const fs::path& path, const ReadOptions
     if (auto stack = lsm_stack(file.lsm_record(), file.pages(), bytes_at, name)) {
         constexpr std::uint64_t kMost = std::uint64_t{1} << 32;
         if (file_bytes(path) >= kMost)
-            throw Error(fmt::format("{}: LSM of 4 GiB or more, whose places have wrapped, expected "
-                                    "less; bfconvert IN OUT.ome.tif of Bio-Formats makes OME-TIFF "
-                                    "of it",
-                                    name));
+            throw Error("{}: LSM of 4 GiB or more, whose places have wrapped, expected less; "
+                        "bfconvert IN OUT.ome.tif of Bio-Formats makes OME-TIFF of it",
+                        name);
         return *stack;
     }
     if (auto stack = metamorph_stack(bytes_at))
@@ -231,8 +230,8 @@ class TiffVolume final : public DecodedFile {
             plane = stack_.planes[number];
         TiffFile& file = file_of(plane);
         if (plane.page >= file.pages())
-            throw Error(fmt::format("{}: truncated: {} pages, page {} is described", file.name(),
-                                    file.pages(), plane.page));
+            throw Error("{}: truncated: {} pages, page {} is described", file.name(), file.pages(),
+                        plane.page);
         Grid slice = info_.grid;
         slice.vertices[2] = 1;
         convert_planes(chosen_, slice, out, file.name(),
@@ -251,8 +250,8 @@ class TiffVolume final : public DecodedFile {
             other_ = std::make_unique<TiffFile>(path);
             other_path_ = path;
             if (other_->shape() != first_.shape())
-                throw Error(fmt::format("{}: {}, {} has {}", path.string(), text(other_->shape()),
-                                        path_.string(), text(first_.shape())));
+                throw Error("{}: {}, {} has {}", path.string(), text(other_->shape()),
+                            path_.string(), text(first_.shape()));
         }
         return *other_;
     }

@@ -8,8 +8,6 @@
 #include "index/readers/formats/data_stream.h"
 #include "index/readers/formats/stored_file.h"
 
-#include <fmt/format.h>
-
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
@@ -35,13 +33,13 @@ void expect_believable(const fs::path& path) {
     std::string word;
     std::getline(head, word);
     if (!word.starts_with("# vtk DataFile"))
-        throw Error(fmt::format("{}: not a legacy VTK file", name));
+        throw Error("{}: not a legacy VTK file", name);
     std::getline(head, word); // the title may hold any word
     std::array<std::int64_t, 3> sizes{};
     std::uint64_t components = 1;
     while (head >> word) {
         if (word == "DATASET" && head >> word && word != "STRUCTURED_POINTS")
-            throw Error(fmt::format("{}: holds {}, expected STRUCTURED_POINTS", name, word));
+            throw Error("{}: holds {}, expected STRUCTURED_POINTS", name, word);
         if (word == "DIMENSIONS")
             head >> sizes[0] >> sizes[1] >> sizes[2];
         if (word == "SCALARS") {
@@ -52,13 +50,13 @@ void expect_believable(const fs::path& path) {
         }
     }
     if (sizes == std::array<std::int64_t, 3>{})
-        throw Error(fmt::format("{}: gives no DIMENSIONS", name));
+        throw Error("{}: gives no DIMENSIONS", name);
     Grid grid;
     grid.vertices = checked_vertices(sizes, name);
     components = std::max<std::uint64_t>(components, 1);
     if (grid.cell_count() > file_bytes(path) / components)
-        throw Error(fmt::format("{}: truncated: {} vertices of {} components in {} bytes", name,
-                                grid.vertex_count(), components, file_bytes(path)));
+        throw Error("{}: truncated: {} vertices of {} components in {} bytes", name,
+                    grid.vertex_count(), components, file_bytes(path));
 }
 
 class LegacyFile final : public DecodedFile {

@@ -287,99 +287,77 @@ void add_export(Command& program) {
         "export", "Write surfaces as files for other programs: meshes, or tables of cells.");
     command.examples({"isochron export run42.isochron --isovalue 100 --steps 0 -o surface.ply",
                       "isochron export run42.isochron --isovalue 100 -o surfaces/ --format vtp"});
-    command.option("file", arguments->file, "Index to take surfaces of")
-        .required()
-        .type_name("INDEX");
-    command
-        .option("--array", arguments->array,
-                "Array of the surfaces, where the index has several (default: its first)")
-        .type_name("NAME");
+    command.option("file INDEX", arguments->file, "Index to take surfaces of").required();
+    command.option("--array NAME", arguments->array,
+                   "Array of the surfaces, where the index has several (default: its first)");
     command
         .option(
-            "--isovalue", arguments->isovalues,
+            "--isovalue VALUE", arguments->isovalues,
             "Isovalue of the surface, in the unit of the values (after scaling). May be given up "
             "to 8 times, each time for another surface")
         .repeatable()
-        .required()
-        .type_name("VALUE");
-    command
-        .option("--steps,--step", arguments->steps,
-                "Steps to write, numbered from 0: `7`, `0:63` for 0 to 63, or `0:63:4` for every "
-                "fourth of them (default: all)")
-        .type_name("FIRST:LAST[:STRIDE]");
+        .required();
+    command.option(
+        "--steps,--step FIRST:LAST[:STRIDE]", arguments->steps,
+        "Steps to write, numbered from 0: `7`, `0:63` for 0 to 63, or `0:63:4` for every "
+        "fourth of them (default: all)");
     command
         .option(
-            "--fraction", arguments->fraction,
+            "--fraction FRACTION", arguments->fraction,
             "Write the surface between each step and the next: 32768 is halfway, as for `query`")
         .between(0u, 65535u)
-        .shows_default()
-        .type_name("FRACTION");
+        .shows_default();
     command
-        .option("-o,--output,--out", arguments->out,
+        .option("-o,--output,--out FILE", arguments->out,
                 "File to write; with several steps, the number of the step is added to its name, "
                 "surface_0007.ply. Or a folder, which is made if its name ends in a slash")
-        .required()
-        .type_name("FILE");
-    command.option("--format", arguments->format, "Format of the file (default: by its extension)")
-        .one_of(format_names())
-        .type_name("FORMAT");
-    const Option color_by =
-        command
-            .option("--color-by,--color", arguments->color_by,
-                    "Array whose values color the vertices. The values are written, too, where the "
-                    "format can hold them; stl and csv hold no colors")
-            .type_name("NAME");
-    command.option("--color-map", arguments->color_map, "Color map for these values")
-        .needs(color_by)
-        .shows_default()
-        .type_name("MAP");
+        .required();
     command
-        .option("--color-range,--range", arguments->range,
-                "Values at both ends of the color map (default: the range of the array)")
+        .option("--format FORMAT", arguments->format,
+                "Format of the file (default: by its extension)")
+        .one_of(format_names());
+    const Option color_by = command.option(
+        "--color-by,--color NAME", arguments->color_by,
+        "Array whose values color the vertices. The values are written, too, where the "
+        "format can hold them; stl and csv hold no colors");
+    command.option("--color-map MAP", arguments->color_map, "Color map for these values")
         .needs(color_by)
-        .values(2)
-        .type_name("LOW HIGH");
+        .shows_default();
+    command
+        .option("--color-range,--range LOW HIGH", arguments->range,
+                "Values at both ends of the color map (default: the range of the array)")
+        .needs(color_by);
     command
         .option(
-            "--precision", arguments->precision,
+            "--precision PRECISION", arguments->precision,
             "Precision of coordinates: single or double. Where single is too coarse, an origin is "
             "subtracted from them, and the file states this origin")
         .one_of({"single", "double"})
-        .shows_default()
-        .type_name("PRECISION");
+        .shows_default();
+    command.option(
+        "--length-unit,--unit UNIT", arguments->unit,
+        "Unit of the coordinates: m, km, cm, mm, um, nm, in or ft (default: the unit of the "
+        "data)");
     command
-        .option(
-            "--length-unit,--unit", arguments->unit,
-            "Unit of the coordinates: m, km, cm, mm, um, nm, in or ft (default: the unit of the "
-            "data)")
-        .type_name("UNIT");
-    command
-        .option("--rate", arguments->rate,
+        .option("--rate RATE", arguments->rate,
                 "Number of steps that glb-animation and usda play in a second (default: 10)")
-        .positive()
-        .type_name("RATE");
-    command
-        .option("--crop", arguments->cuts.crop,
-                "Write only triangles within a box, from one vertex of the grid to another; both "
-                "belong to the box")
-        .type_name("X0:X1,Y0:Y1,Z0:Z1");
-    command
-        .option("--clip", arguments->cuts.clip,
-                "Write only triangles on one side of a plane, which is given by a point and a "
-                "normal in the coordinates of the data. The normal points to the side that is cut "
-                "away")
-        .values(6)
-        .type_name("X Y Z NX NY NZ");
-    command
-        .option("--dust", arguments->cuts.dust,
-                "Leave out the connected pieces of the surface that have fewer active cells")
-        .type_name("CELLS");
-    command
-        .option("--simplify", arguments->cuts.simplify,
-                "Write fewer triangles, so that the surface moves by at most this distance: a "
-                "length in the unit of the file, or 0.5cells for half the shortest side of a cell. "
-                "How far the surface has moved is measured and printed")
-        .type_name("DISTANCE");
+        .positive();
+    command.option(
+        "--crop X0:X1,Y0:Y1,Z0:Z1", arguments->cuts.crop,
+        "Write only triangles within a box, from one vertex of the grid to another; both "
+        "belong to the box");
+    command.option(
+        "--clip X Y Z NX NY NZ", arguments->cuts.clip,
+        "Write only triangles on one side of a plane, which is given by a point and a "
+        "normal in the coordinates of the data. The normal points to the side that is cut "
+        "away");
+    command.option("--dust CELLS", arguments->cuts.dust,
+                   "Leave out the connected pieces of the surface that have fewer active cells");
+    command.option(
+        "--simplify DISTANCE", arguments->cuts.simplify,
+        "Write fewer triangles, so that the surface moves by at most this distance: a "
+        "length in the unit of the file, or 0.5cells for half the shortest side of a cell. "
+        "How far the surface has moved is measured and printed");
     command.flag(
         "--quantize", arguments->quantize,
         "In glTF, store coordinates in 16 bits and normals in 8 (KHR_mesh_quantization). A "

@@ -64,18 +64,16 @@ void add_figure(Command& program) {
     command.examples({"isochron figure figure.toml -o figure.pdf",
                       "isochron figure figure.toml -o figure.tiff"});
     command
-        .option("file", options->file, "What the figure shows: a TOML file (docs/guide/figures.md)")
-        .required()
-        .type_name("FILE");
+        .option("file FILE", options->file,
+                "What the figure shows: a TOML file (docs/guide/figures.md)")
+        .required();
     command
-        .option("-o,--output", options->out,
+        .option("-o,--output FILE", options->out,
                 "Figure to write: .pdf, with its words as text, .png or .tiff")
-        .required()
-        .type_name("FILE");
-    command.option("--context", options->context, "OpenGL context to draw with")
+        .required();
+    command.option("--context CONTEXT", options->context, "OpenGL context to draw with")
         .one_of({"egl", "osmesa"})
-        .shows_default()
-        .type_name("CONTEXT");
+        .shows_default();
     command.flag("--force", options->force,
                  "Let --output replace any file but one that is read; without this option it "
                  "replaces only figures and pictures of this program");

@@ -70,9 +70,8 @@ void add_info(Command& program) {
     Command command = program.subcommand(
         "info", "Describe an index, or volume files as `build` would read them.");
     command.examples({"isochron info 'run42/*.vti'", "isochron info run42.isochron --json"});
-    command.option("files", arguments->sources.files, "Index, or files that `build` accepts")
-        .required()
-        .type_name("FILE");
+    command.option("files FILE", arguments->sources.files, "Index, or files that `build` accepts")
+        .required();
     command.flag("--tree", arguments->tree,
                  "Also print how many cells each node of the paper's tree stores, if the index has "
                  "this tree");

@@ -513,68 +513,54 @@ void add_movie(Command& program) {
                       "its steps, seen as `explore` shows them first. It lasts 10 s, or longer "
                       "where there are more steps than frames in 10 s");
     command
-        .option("-o,--output,--out", options->out,
+        .option("-o,--output,--out FILE", options->out,
                 "Movie to write: .mp4, .mkv or .mov (H.264), .webm (VP9), or .gif; or a folder for "
                 "its frames (.png); or .jsonl, the film of an index as a recording, which `replay` "
                 "plays")
-        .required()
-        .type_name("FILE");
+        .required();
+    command.option(
+        "--isovalue VALUE", options->series.isovalue,
+        "With an index: isovalue of the surface (default: the one that `explore` shows first)");
+    command.option("--steps,--step FIRST:LAST[:STRIDE]", options->series.steps,
+                   "With an index: steps to show, numbered from 0: `0:63` for 0 to 63, or `0:63:4` "
+                   "for every fourth of them (default: all)");
     command
         .option(
-            "--isovalue", options->series.isovalue,
-            "With an index: isovalue of the surface (default: the one that `explore` shows first)")
-        .type_name("VALUE");
-    command
-        .option("--steps,--step", options->series.steps,
-                "With an index: steps to show, numbered from 0: `0:63` for 0 to 63, or `0:63:4` "
-                "for every fourth of them (default: all)")
-        .type_name("FIRST:LAST[:STRIDE]");
-    command
-        .option(
-            "--between", options->series.between,
+            "--between MODE", options->series.between,
             "With an index: what to show between two steps: `hold` shows the step before, `blend` "
             "a blend of both (default: what `isochron info` advises)")
-        .one_of(interaction::all_names<interaction::BetweenSteps>())
-        .type_name("MODE");
-    command
-        .option("--keys", options->series.keys,
-                "With an index: file of the key frames that the film goes through "
-                "(docs/FORMATS.md), or a session that has "
-                "keys (Ctrl + M in `explore`)")
-        .type_name("FILE");
+        .one_of(interaction::all_names<interaction::BetweenSteps>());
+    command.option("--keys FILE", options->series.keys,
+                   "With an index: file of the key frames that the film goes through "
+                   "(docs/FORMATS.md), or a session that has "
+                   "keys (Ctrl + M in `explore`)");
     command
         .option(
-            "--film", options->series.film,
+            "--film FILM", options->series.film,
             "With an index: the kind of film, `time` (the steps pass), `turn` (one turn about the "
             "data's up axis while the first of the steps stands) or `both` (one turn while the "
             "steps pass) (default: time)")
-        .one_of({"time", "turn", "both"})
-        .type_name("FILM");
+        .one_of({"time", "turn", "both"});
     command.flag("--turn", options->series.turn,
                  "One turn while time plays, as `--film both` makes it. With `--steps 5`, step 5 "
                  "stands still during the turn");
     command
-        .option("--length", options->series.length,
+        .option("--length SECONDS", options->series.length,
                 "With an index: length of the turn (default: 10)")
-        .between(0.1, interaction::kLongestFilm)
-        .type_name("SECONDS");
+        .between(0.1, interaction::kLongestFilm);
     command.flag("--titles", options->series.titles,
                  "Show the name and the text of each key at the bottom while the film rests there: "
                  "with --keys, or with the recording of a film or story whose keys have texts");
     command.flag("--panorama", options->panorama,
                  "All directions for both eyes: equirectangular, the left eye's picture above the "
                  "right eye's, in a square of 4096 pixels, or as --size says");
-    command.option("--rate", options->rate, "Frames per second")
-        .positive()
-        .shows_default()
-        .type_name("RATE");
+    command.option("--rate RATE", options->rate, "Frames per second").positive().shows_default();
     command
-        .option("--eyes", options->eyes,
+        .option("--eyes EYES", options->eyes,
                 "`window` makes one movie of what the window shows; `each` makes a movie for each "
                 "eye of each viewport and adds their names to the name of --output")
         .one_of({"window", "each"})
-        .shows_default()
-        .type_name("EYES");
+        .shows_default();
     command.flag("--force", options->force, "Replace a movie that exists");
     command.flag(
         "--background", options->background,

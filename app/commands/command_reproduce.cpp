@@ -340,23 +340,19 @@ void add_reproduce(Command& program) {
         {"isochron reproduce pictures/stamp_00012_stamp-1.png",
          "isochron reproduce pictures/stamp_00012_stamp-1.png --data run42.isochron -o again.png"});
     command
-        .option("picture", options->picture,
+        .option("picture FILE", options->picture,
                 "Picture (.png, .exr, .tiff or .jpg) or figure (.pdf, .png or .tiff) that isochron "
                 "wrote")
-        .required()
-        .type_name("FILE");
-    command
-        .option("--data", options->data,
-                "Index to draw (default: the one that the picture names, beside the picture or in "
-                "the working directory)")
-        .type_name("INDEX");
-    command
-        .option("--model", options->models,
-                "Let the picture show this file of triangles, though it lies outside of the folders "
-                "of picture and data; may be given several times")
-        .type_name("FILE");
-    command.option("-o,--output,--out", options->out, "Save the new picture in this file")
-        .type_name("FILE");
+        .required();
+    command.option(
+        "--data INDEX", options->data,
+        "Index to draw (default: the one that the picture names, beside the picture or in "
+        "the working directory)");
+    command.option(
+        "--model FILE", options->models,
+        "Let the picture show this file of triangles, though it lies outside of the folders "
+        "of picture and data; may be given several times");
+    command.option("-o,--output,--out FILE", options->out, "Save the new picture in this file");
     command.flag("--force", options->force,
                  "Let --output replace any file but one that is read; without this option it "
                  "replaces only pictures of this program");
@@ -364,10 +360,9 @@ void add_reproduce(Command& program) {
         "--any-data", options->any_data,
         "Draw the data even if they differ from those of the picture, as their hashes tell, "
         "and count the pixels that differ");
-    command.option("--context", options->context, "OpenGL context to draw with")
+    command.option("--context CONTEXT", options->context, "OpenGL context to draw with")
         .one_of({"egl", "osmesa"})
-        .shows_default()
-        .type_name("CONTEXT");
+        .shows_default();
     command.footer("The command prints that the pictures are equal, or what differs: the data, the "
                    "program, the driver, and how many pixels.");
     command.exit_status(0, "equal pictures");

@@ -206,42 +206,33 @@ void add_serve(Command& program) {
         "serve", "Show indices on a web page, to browsers on this machine or on others.");
     command.examples(
         {"isochron serve run42.isochron", "isochron serve run42.isochron --write-site site/"});
-    command.option("files", arguments->files, "Indices to serve; the page shows the first")
-        .required()
-        .type_name("INDEX");
+    command.option("files INDEX", arguments->files, "Indices to serve; the page shows the first")
+        .required();
     command
-        .option("--address", arguments->address,
+        .option("--address ADDRESS", arguments->address,
                 "Address to listen on: 0.0.0.0 lets all machines of the network ask")
-        .shows_default()
-        .type_name("ADDRESS");
-    command.option("--port", arguments->port, "Port to listen on (default: one that is free)")
-        .between(0u, 65535u)
-        .type_name("PORT");
-    command
-        .option(
-            "--certificate", arguments->certificate,
-            "Certificate in PEM, to serve by https: headsets open the page in VR only by https or "
-            "from localhost")
-        .type_name("FILE");
-    command.option("--key", arguments->key, "Private key of the certificate, in PEM")
-        .type_name("FILE");
+        .shows_default();
+    command.option("--port PORT", arguments->port, "Port to listen on (default: one that is free)")
+        .between(0u, 65535u);
+    command.option(
+        "--certificate FILE", arguments->certificate,
+        "Certificate in PEM, to serve by https: headsets open the page in VR only by https or "
+        "from localhost");
+    command.option("--key FILE", arguments->key, "Private key of the certificate, in PEM");
     command.flag("--no-token", arguments->no_token,
                  "Let everybody who reaches the address open the page, without the token of the "
                  "printed link");
     command.flag("--follow", arguments->follow,
                  "Show steps that `build --append` adds meanwhile, to whoever has the page or the "
                  "link open");
-    command
-        .option("--story", arguments->story,
-                "Tell the story in this file on the page, on the first index: NAME.isochron-story "
-                "(docs/guide/stories.md)")
-        .type_name("FILE");
-    command
-        .option(
-            "--write-site", arguments->write_site,
-            "Write the page and the indices into this folder instead, as plain files for any web "
-            "server")
-        .type_name("FOLDER");
+    command.option(
+        "--story FILE", arguments->story,
+        "Tell the story in this file on the page, on the first index: NAME.isochron-story "
+        "(docs/guide/stories.md)");
+    command.option(
+        "--write-site FOLDER", arguments->write_site,
+        "Write the page and the indices into this folder instead, as plain files for any web "
+        "server");
     command.footer(
         "The page reads ranges of the files and searches in the browser; the server only "
         "sends bytes of these files. docs/guide/sharing.md says what other servers need.");

@@ -187,13 +187,12 @@ void add_table(Command& program) {
         "table", "Print a table of what a session marked, or of the times of its frames.");
     command.examples({"isochron table walk.jsonl", "isochron table walk.jsonl --json"});
     command
-        .option("file", arguments->file,
+        .option("file FILE", arguments->file,
                 "Recording or session, whose marks, rulers, bookmarks and stamps become rows. Or a "
                 "timing report (`replay --report`), whose frames become rows")
-        .required()
-        .type_name("FILE");
-    command.option("-o,--output,--out", arguments->out, "File to write (default: print the table)")
-        .type_name("FILE");
+        .required();
+    command.option("-o,--output,--out FILE", arguments->out,
+                   "File to write (default: print the table)");
     command.flag("--force", arguments->force, "Replace a file that exists");
     command.flag(
         "--keep-formulas", arguments->keep_formulas,

@@ -170,26 +170,21 @@ void add_tell(Command& program) {
         "its state, a picture or cells.");
     command.examples({"isochron tell step=2 isovalue=100", "isochron tell picture -o now.png"});
     command
-        .option("words", arguments->words,
+        .option("words COMMAND", arguments->words,
                 "Commands: KEY=VALUE with the keys of a recording's commands, an object of them as "
                 "JSON, or a word: undo, redo, save, screenshot, copy, quit. Or a question: state; "
                 "picture; cells [isovalue=V] [step=N]; subscribe [state] [time] [cells] "
                 "[statistics], which prints a line for each event")
-        .required()
-        .type_name("COMMAND");
-    command
-        .option("--socket", arguments->socket,
-                "Socket of the session: a path, or 127.0.0.1:PORT (default: the socket that "
-                "`explore --control` opens)")
-        .type_name("SOCKET");
-    command
-        .option("--token-file", arguments->token_file,
-                "File with the token of 127.0.0.1:PORT (default: the one that the session wrote)")
-        .type_name("FILE");
-    command
-        .option("-o,--output,--out", arguments->out,
-                "File for a picture, or for the numbers of cells as `query --output` writes them")
-        .type_name("FILE");
+        .required();
+    command.option("--socket SOCKET", arguments->socket,
+                   "Socket of the session: a path, or 127.0.0.1:PORT (default: the socket that "
+                   "`explore --control` opens)");
+    command.option(
+        "--token-file FILE", arguments->token_file,
+        "File with the token of 127.0.0.1:PORT (default: the one that the session wrote)");
+    command.option(
+        "-o,--output,--out FILE", arguments->out,
+        "File for a picture, or for the numbers of cells as `query --output` writes them");
     command.flag("--now", arguments->now,
                  "Take the picture as it is, without waiting for all cells and the final quality");
     command.flag("--force", arguments->force, "Let --output replace any file");

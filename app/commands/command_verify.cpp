@@ -50,7 +50,7 @@ void add_verify(Command& program) {
         "verify", "Check every checksum of an index, which reads the whole file.");
     command.examples(
         {"isochron verify run42.isochron", "isochron verify run42.isochron && echo intact"});
-    command.option("file", *path, "Index to check").required().type_name("INDEX");
+    command.option("file INDEX", *path, "Index to check").required();
     command.footer("If the index refers to files instead of holding their values, these files are "
                    "checked, too. One line says where the damage is.");
     command.exit_status(0, "intact");

@@ -336,9 +336,8 @@ void add_scale(app::Command& program) {
     command.flag("--warm", arguments->warm,
                  "Measure ids of a float step in memory instead, by bricks and by the scan, and "
                  "what limits them; with --vtk also how long its mesh takes");
-    command.option("--work", arguments->work, "Folder for the files, on a disk: two steps")
+    command.option("--work DIR", arguments->work, "Folder for the files, on a disk: two steps")
         .existing_folder()
-        .type_name("DIR")
         .shows_default();
     command.footer("Cold: the file has been taken out of the page cache. Bytes are what disks "
                    "gave this process, from opening on.\nThe plain read is in order, "

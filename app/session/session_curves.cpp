@@ -122,7 +122,6 @@ void SessionCurves::update(const Frame& frame, const ShownArrays& arrays,
     const bool seen = state.room_panel.shown || (state.panel && frame.is_live());
     WantedCurves wanted;
     wanted.now = state.shown_instant().step;
-    wanted.rest = true;
     wanted.paused = frame.is_live() && extractor.busy();
     of_surface_.assign(state.isosurfaces.size(), std::nullopt);
     of_mark_.reset();

@@ -100,7 +100,8 @@ std::filesystem::path file_of_model_series(const std::filesystem::path& path, st
     return file;
 }
 
-TriangleMesh read_model(const std::filesystem::path& path, const std::string& unit) {
+TriangleMesh read_model(const std::filesystem::path& path, const std::string& unit,
+                        const std::stop_token& stop) {
     const ModelFormat* const format = model_format(path);
     if (!format)
         throw Error("{}: no model by its name: expected {}", path.string(), model_extensions());
@@ -116,7 +117,7 @@ TriangleMesh read_model(const std::filesystem::path& path, const std::string& un
     lease.work([] {},
                [&] {
                    lease.reader().ask(ReadModel{path});
-                   const auto read = lease.expect<ModelRead>();
+                   const auto read = lease.expect<ModelRead>(stop);
                    const std::uint64_t most = std::uint64_t{3} * kMostModelTriangles;
                    if (read.points == 0 || read.points > most || read.corners == 0 ||
                        read.corners > most || read.corners % 3 != 0 ||
@@ -129,7 +130,7 @@ TriangleMesh read_model(const std::filesystem::path& path, const std::string& un
                    std::span<const std::byte> shared = lease.reader().memory(
                        read.points * 2 * sizeof(glm::vec3) + read.corners * sizeof(std::uint32_t));
                    lease.reader().ask(TakeModel{});
-                   lease.expect<SlabRead>();
+                   lease.expect<SlabRead>(stop);
                    take_part(shared, mesh.points);
                    take_part(shared, mesh.normals);
                    take_part(shared, mesh.corners);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <stop_token>
 #include <string>
 
 namespace isochron::index {
@@ -27,6 +28,8 @@ std::filesystem::path file_of_model_series(const std::filesystem::path& path, st
 /// where the unit is not known, they stay as they are
 /// @throws Error naming the file, in one line: damaged, too large, no model by its name, or its
 /// reader is not installed
-TriangleMesh read_model(const std::filesystem::path& path, const std::string& unit = {});
+/// @throws Interrupted when stopped
+TriangleMesh read_model(const std::filesystem::path& path, const std::string& unit = {},
+                        const std::stop_token& stop = {});
 
 } // namespace isochron::index

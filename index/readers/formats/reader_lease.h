@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <variant>
@@ -79,10 +80,11 @@ class ReaderLease {
         }
     }
 
-    /// The next reply, which must be of this kind. @throws Error with the reader's message if not
+    /// The next reply, which must be of this kind. @throws Error with the reader's message if not, and
+    /// as ReaderProcess::reply
     template <class Kind>
-    Kind expect() {
-        ReaderReply reply = reader().reply();
+    Kind expect(const std::stop_token& stop = {}) {
+        ReaderReply reply = reader().reply(stop);
         if (auto* kind = std::get_if<Kind>(&reply))
             return std::move(*kind);
         const auto* refused = std::get_if<Refused>(&reply);

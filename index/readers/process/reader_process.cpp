@@ -1,6 +1,7 @@
 // Starts a reader, exchanges messages with it, and finds how it ended.
 #include "index/readers/process/reader_process.h"
 
+#include "index/interrupted.h"
 #include "index/readers/process/reader_start.h"
 #include "index/system/module.h"
 
@@ -167,9 +168,9 @@ void ReaderProcess::send(const ReaderRequest& request, int attached) {
         fail_as_it_ended();
 }
 
-ReaderReply ReaderProcess::reply() {
+ReaderReply ReaderProcess::reply(const std::stop_token& stop) {
     if (!ready_) {
-        const ReaderReply first = next_reply();
+        const ReaderReply first = next_reply(stop);
         if (const auto* refused = std::get_if<Refused>(&first))
             fail(refused->message);
         const auto* ready = std::get_if<Ready>(&first);
@@ -177,20 +178,28 @@ ReaderReply ReaderProcess::reply() {
             fail(fmt::format("{} is of another version, expected {}", program_, kReaderVersion));
         ready_ = true;
     }
-    return next_reply();
+    return next_reply(stop);
 }
 
-ReaderReply ReaderProcess::next_reply() {
+ReaderReply ReaderProcess::next_reply(const std::stop_token& stop) {
     watch_.begin(limits_.patience, budget_ ? budget_->time_of_bytes() : std::chrono::seconds{0});
+    const auto expect_wanted = [&] {
+        if (stop.stop_requested())
+            throw Interrupted("nobody waits for the reply any more");
+    };
     std::optional<ReaderReply> reply;
     try {
-        if (const auto message = socket_->receive([this] { look(); }))
+        expect_wanted();
+        if (const auto message = socket_->receive([&] {
+                expect_wanted();
+                look();
+            }))
             reply = reply_from(message->bytes);
     } catch (const ReaderEnded&) {
         throw;
     } catch (const Error& error) {
         fail(fmt::format("its reader sent {}", error.what()));
-    } catch (...) { // from `waiting_`: the reply will not be waited for
+    } catch (...) { // from `waiting_`, or stopped: the reply will not be waited for
         kill();
         throw;
     }

@@ -153,9 +153,7 @@ std::vector<std::byte> encoded_image(const render::Image& image, const std::file
 void write_image(const render::Image& image, const std::filesystem::path& path,
                  const std::string& note) {
     const std::vector<std::byte> bytes = encoded_image(image, path, note);
-    index::NewFile file(path);
-    file.write_at(0, bytes);
-    file.commit();
+    index::write_file(path, bytes);
 }
 
 std::string read_note(const std::filesystem::path& path) {

@@ -12,7 +12,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -64,9 +63,7 @@ void import(ImportOptions options) {
     if (options.out) {
         guard_outputs({{*options.out, OutputKind::configuration, 0, text}}, {{options.file}},
                       options.force);
-        index::NewFile file(*options.out);
-        file.write_at(0, std::as_bytes(std::span(text)));
-        file.commit();
+        index::write_file(*options.out, text);
         tell_result({{"file", *options.out}});
     } else {
         tell_result({{"configuration", text}});

@@ -42,9 +42,7 @@ void write_figure(const FigureOptions& options) {
     guard_outputs({{out, OutputKind::picture}}, reads, options.force);
     const MadeFigure made =
         make_figure(figure, options.file, data, *stereo::context_kind_from_name(options.context));
-    index::NewFile file(out);
-    file.write_at(0, figure_bytes(made, figure.dpi, out));
-    file.commit();
+    index::write_file(out, figure_bytes(made, figure.dpi, out));
     tell_result({{"file", options.out},
                  {"panels", figure.panels.size()},
                  {"width_mm", made.page.size.x},

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,9 +86,7 @@ void add_manual(Command& program) {
         std::filesystem::create_directories(options->output);
         nlohmann::ordered_json files = nlohmann::ordered_json::array();
         for (const ManualPage& page : pages) {
-            index::NewFile file(options->output / page.file);
-            file.write_at(0, std::as_bytes(std::span(page.text)));
-            file.commit();
+            index::write_file(options->output / page.file, page.text);
             files.push_back((options->output / page.file).string());
         }
         tell_result({{"files", files}});

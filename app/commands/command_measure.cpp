@@ -206,9 +206,7 @@ void run_measure(const MeasureArguments& arguments) {
                                           : as_table(made));
     }
     const std::string text = csv_of(made.rows, made.columns);
-    index::NewFile written(arguments.out);
-    written.write_at(0, std::as_bytes(std::span(text)));
-    written.commit();
+    index::write_file(arguments.out, text);
     tell_result({{"file", arguments.out.string()}, {"rows", made.rows.size()}});
     print_report("wrote {}: {} rows\n", arguments.out.string(), made.rows.size());
 }

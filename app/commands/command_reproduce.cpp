@@ -257,9 +257,7 @@ bool reproduced_figure(const ReproduceOptions& options) {
     if (options.out) {
         guard_outputs({{*options.out, OutputKind::picture}}, {{options.picture}, nullptr},
                       options.force);
-        index::NewFile file(*options.out);
-        file.write_at(0, figure_bytes(made, figure.dpi, *options.out));
-        file.commit();
+        index::write_file(*options.out, figure_bytes(made, figure.dpi, *options.out));
         print_report("wrote {}\n", *options.out);
     }
     const bool equal = std::ranges::equal(std::as_bytes(std::span(there)), bytes);
@@ -303,9 +301,8 @@ void reproduce(const ReproduceOptions& options) {
     constexpr std::uint64_t kLargest = std::uint64_t{1} << 34;
     const std::string there = index::read_text(options.picture, kLargest);
     if (options.out) {
-        index::NewFile file(*options.out);
-        file.write_at(0, stereo::encoded_image(made.image, *options.out, text_of(note)));
-        file.commit();
+        index::write_file(*options.out,
+                          stereo::encoded_image(made.image, *options.out, text_of(note)));
         tell_result({{"output", *options.out}});
         print_report("wrote {}\n", *options.out);
     }

@@ -172,9 +172,7 @@ void run_table(const TableArguments& arguments) {
         return print_answer(text);
     guard_outputs({{arguments.out, OutputKind::surface}}, {{arguments.file}, nullptr},
                   arguments.force);
-    index::NewFile file(arguments.out);
-    file.write_at(0, std::as_bytes(std::span(text.str())));
-    file.commit();
+    index::write_file(arguments.out, text.str());
     tell_result({{"file", arguments.out.string()}, {"rows", rows.size()}});
     print_report("wrote {}: {} rows\n", arguments.out.string(), rows.size());
 }

@@ -99,9 +99,7 @@ void write_picture(const ControlClient::Answer& answer, const std::string& path)
 }
 
 void write_cells(const ControlClient::Answer& answer, const std::string& path) {
-    index::NewFile file(path);
-    file.write_at(0, answer.bytes);
-    file.commit();
+    index::write_file(path, answer.bytes);
 }
 
 /// Prints events until the session ends, or a signal comes.

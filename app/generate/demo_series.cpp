@@ -104,9 +104,7 @@ struct Destination {
 
     void write_note() const {
         const std::string text = recipe.dump(2) + "\n";
-        index::NewFile file(note());
-        file.write_at(0, std::as_bytes(std::span(text)));
-        file.commit();
+        index::write_file(note(), text);
     }
 };
 

@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <span>
 
 namespace isochron::app {
 namespace {
@@ -126,9 +125,7 @@ void save_session(const std::filesystem::path& path, const SavedSession& session
     if (!session.picture.empty())
         value["picture"] = to_base64(session.picture);
     const std::string text = value.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
-    index::NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(text)));
-    file.commit();
+    index::write_file(path, text);
 }
 
 bool is_session_text(const std::string& text) {

@@ -191,9 +191,7 @@ void KeptFrames::keep(std::size_t frame, const std::vector<FramePart>& parts) {
         return;
     try {
         const std::string bytes = encoded(parts);
-        index::NewFile file(folder_ / file_of(frame));
-        file.write_at(0, std::as_bytes(std::span(bytes)));
-        file.commit();
+        index::write_file(folder_ / file_of(frame), std::as_bytes(std::span(bytes)));
     } catch (const index::Error&) { // the movie needs the room more
         keeps_ = false;
     }

@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -42,9 +41,7 @@ void write_metadata(const fs::path& path, const std::string& note) {
         text += c;
     }
     text += '\n';
-    index::NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(text)));
-    file.commit();
+    index::write_file(path, text);
 }
 
 /// @param metadata file with the note; empty: none

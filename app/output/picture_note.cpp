@@ -232,9 +232,7 @@ void add_note_to_gif(const std::filesystem::path& path, const std::string& text)
     }
     bytes += '\0';
     bytes += kTrailer;
-    index::NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(bytes)));
-    file.commit();
+    index::write_file(path, std::as_bytes(std::span(bytes)));
 }
 
 } // namespace isochron::app

@@ -211,9 +211,7 @@ class Server final : public HttpServer {
 
 void write_page(const std::filesystem::path& folder, SiteParts parts) {
     const auto write = [](const std::filesystem::path& path, std::span<const std::byte> bytes) {
-        index::NewFile file(path);
-        file.write_at(0, bytes);
-        file.commit();
+        index::write_file(path, bytes);
     };
     std::filesystem::create_directories(folder / "assets");
     for (const PageFile& file : page_files())

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <system_error>
 #include <utility>
 
@@ -53,9 +52,7 @@ fs::path write_table(const fs::path& folder, const char* name, const std::string
     std::error_code ignored;
     for (int number = 1; number == 1 || fs::exists(fs::symlink_status(path, ignored)); ++number)
         path = folder / fmt::format("isochron_{}_{:04}.csv", name, number);
-    index::NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(text)));
-    file.commit();
+    index::write_file(path, text);
     return path;
 }
 

@@ -210,4 +210,10 @@ void name_whole_file(const fs::path& written, const fs::path& target) {
     flush_folder_of(name);
 }
 
+void write_file(const std::filesystem::path& target, std::span<const std::byte> bytes) {
+    NewFile file(target);
+    file.write_at(0, bytes);
+    file.commit();
+}
+
 } // namespace isochron::index

@@ -52,9 +52,7 @@ std::string escaped(std::string_view text) {
 }
 
 void write_whole(const fs::path& path, std::string_view bytes) {
-    NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(bytes)));
-    file.commit();
+    write_file(path, std::as_bytes(std::span(bytes)));
 }
 
 void append_number(std::string& out, std::uint64_t number) {

@@ -160,9 +160,7 @@ std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, Ser
     const std::string name = header.string();
     check_grid(info.grid, name);
     const ChosenScalar chosen = choose_scalar(std::span(&layout.array, 1), options, name);
-    info.arrays = chosen.offered;
-    info.array = chosen.label();
-    info.type = chosen.value_type();
+    chosen.describe(info);
     for (std::string& note : chosen.notes())
         info.notes.push_back(std::move(note));
     if (layout.half)

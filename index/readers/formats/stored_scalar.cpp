@@ -216,6 +216,12 @@ ValueType ChosenScalar::value_type() const {
     return value_type_from_name(name_of(stored)).value_or(ValueType::f64);
 }
 
+void ChosenScalar::describe(SeriesInfo& info) const {
+    info.arrays = offered;
+    info.array = label();
+    info.type = value_type();
+}
+
 std::string ChosenScalar::label() const {
     if (component == kMagnitude)
         return array.name + ".magnitude";

@@ -31,21 +31,20 @@ class Hdf5Decoder final : public DecodedFile {
         ReadOptions asked = options;
         asked.array.reset(); // already chosen
         chosen_ = choose_scalar(std::span(&array, 1), asked, file_->name());
-        SeriesInfo& info = volume_.info;
-        info.array = chosen_.label();
-        info.type = chosen_.value_type();
-        info.scaling = scaling_by(attributes, where);
+        info_ = std::move(volume_.info);
+        info_.array = chosen_.label();
+        info_.type = chosen_.value_type();
+        info_.scaling = scaling_by(attributes, where);
         for (std::string& note : chosen_.notes())
-            info.notes.push_back(std::move(note));
+            info_.notes.push_back(std::move(note));
         note_unread();
-        whole_ = info.grid;
-        part_ = crop_description(info, options, file_->name());
-        if (info.value_unit.empty())
-            info.value_unit = value_unit_by(attributes);
+        whole_ = info_.grid;
+        part_ = crop_description(info_, options, file_->name());
+        if (info_.value_unit.empty())
+            info_.value_unit = value_unit_by(attributes);
         open(0);
     }
 
-    const SeriesInfo& info() const override { return volume_.info; }
     std::size_t steps() const override {
         if (volume_.datasets.size() > 1)
             return volume_.datasets.size();
@@ -130,7 +129,7 @@ class Hdf5Decoder final : public DecodedFile {
              }))
             unread.push_back(std::move(curved));
         if (auto note = note_on_attributes(attributes, unread))
-            volume_.info.notes.push_back(std::move(*note));
+            info_.notes.push_back(std::move(*note));
     }
 
     const Hdf5Dataset& first() const { return volume_.datasets.front(); }

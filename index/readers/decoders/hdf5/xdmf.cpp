@@ -59,9 +59,7 @@ class XdmfFile final : public DecodedFile {
         if (blocks_ && chosen_.array.on_cells)
             expect_all_cells();
         info_.grid = first.grid;
-        info_.arrays = chosen_.offered;
-        info_.array = chosen_.label();
-        info_.type = chosen_.value_type();
+        chosen_.describe(info_);
         info_.notes = first.notes;
         for (std::string& note : chosen_.notes())
             info_.notes.push_back(std::move(note));
@@ -82,7 +80,6 @@ class XdmfFile final : public DecodedFile {
             steps_.resize(info_.times.size());
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return steps_.size(); }
     std::uint32_t slices_at_once() const override {
         return chosen_.array.on_cells || blocks_ ? info_.grid.vertices[2]
@@ -350,7 +347,6 @@ class XdmfFile final : public DecodedFile {
     std::vector<std::vector<XdmfItem>> items_; ///< items of the chosen array, by step and part
     bool blocks_ = false;                      ///< a step has several parts
     ChosenScalar chosen_;
-    SeriesInfo info_;
     std::unique_ptr<Hdf5File> heavy_; ///< the file that was opened last
     fs::path heavy_path_;
     Hdf5Dataset dataset_;

@@ -100,7 +100,6 @@ class MeshFile final : public DecodedFile {
         with_vtk(path_, [&] { describe(options); });
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return std::max<std::size_t>(mesh_->times().size(), 1); }
     std::uint32_t slices_at_once() const override { return slices_of_vtk(chosen_, info_); }
     std::uint64_t decoded_bytes() const override { return bytes_of_vtk(chosen_, info_.grid); }
@@ -125,9 +124,7 @@ class MeshFile final : public DecodedFile {
                                  image.GetSpacing(), image.GetDirectionMatrix()->GetData(), name);
         chosen_ = choose_scalar(without_flags(arrays_of_vtk(image)), options, name);
         hidden_ = hidden_by_flags(flags_of_vtk(image, info_.grid), chosen_, info_.grid);
-        info_.arrays = chosen_.offered;
-        info_.array = chosen_.label();
-        info_.type = chosen_.value_type();
+        chosen_.describe(info_);
         info_.times = mesh_->times();
         info_.length_unit = source.length_unit;
         info_.time_unit = info_.times.empty() ? "" : source.time_unit;
@@ -146,7 +143,6 @@ class MeshFile final : public DecodedFile {
 
     fs::path path_;
     std::shared_ptr<Mesh> mesh_; ///< shared with the file's other arrays
-    SeriesInfo info_;
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_; ///< vertices, of the step `hidden_at_`
     std::size_t hidden_at_ = 0;

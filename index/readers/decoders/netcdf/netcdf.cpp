@@ -204,7 +204,6 @@ class NetcdfVolume final : public DecodedFile {
         part_ = crop_description(info_, options, name);
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return steps_; }
 
     /// Whole chunks, since HDF5 decompresses a whole chunk for each request of a part of it.
@@ -316,7 +315,6 @@ class NetcdfVolume final : public DecodedFile {
     std::size_t member_ = 0;
     MissingValues missing_;
     ChosenScalar chosen_;
-    SeriesInfo info_;
     std::optional<VolumePart> part_;
     std::size_t steps_ = 1;
 };

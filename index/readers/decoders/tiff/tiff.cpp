@@ -99,9 +99,7 @@ class TiffVolume final : public DecodedFile {
             {std::int64_t{shape.width}, shape.height, static_cast<std::int64_t>(stack_.slices)},
             name);
         expect_few_steps(stack_.frames, name);
-        info_.arrays = chosen_.offered;
-        info_.array = chosen_.label();
-        info_.type = chosen_.value_type();
+        chosen_.describe(info_);
         if (stack_.field_of_view.x > 0 && stack_.field_of_view.y > 0) {
             set_spacing(stack_.axes[0], stack_.field_of_view.x / shape.width, "um");
             set_spacing(stack_.axes[1], stack_.field_of_view.y / shape.height, "um");
@@ -122,7 +120,6 @@ class TiffVolume final : public DecodedFile {
             stack_.frames = info_.times.size();
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return stack_.frames; }
     std::uint32_t slices_at_once() const override { return slices_worth_asking(info_); }
     std::uint64_t decoded_bytes() const override {
@@ -261,7 +258,6 @@ class TiffVolume final : public DecodedFile {
     TiffFile first_;
     TiffStack stack_;
     ChosenScalar chosen_;
-    SeriesInfo info_;
     std::size_t channel_ = 0;
     bool frames_are_slices_ = false;
     std::unique_ptr<TiffFile> other_;

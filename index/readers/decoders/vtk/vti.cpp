@@ -103,7 +103,6 @@ class VtiFile final : public DecodedFile {
         take_time();
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return 1; }
 
     std::uint32_t slices_at_once() const override { return slices_of_vtk(chosen_, info_); }
@@ -135,9 +134,7 @@ class VtiFile final : public DecodedFile {
                 for (const VtiArray& each : document_.pieces.front().arrays(on_cells))
                     arrays.push_back(each.array);
         chosen_ = choose_scalar(without_flags(std::move(arrays)), options, name);
-        info_.arrays = chosen_.offered;
-        info_.array = chosen_.label();
-        info_.type = chosen_.value_type();
+        chosen_.describe(info_);
         info_.notes = chosen_.notes();
     }
 
@@ -273,7 +270,6 @@ class VtiFile final : public DecodedFile {
     fs::path path_;
     MappedFile file_;
     VtiDocument document_;
-    SeriesInfo info_;
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_;
     bool decoded_ = false;

@@ -155,9 +155,7 @@ class VtkDataFile final : public DecodedFile {
             info_.notes = all_->notes();
             chosen_ = choose_scalar(without_flags(arrays_of_vtk(data)), options, path_.string());
             hidden_ = hidden_by_flags(flags_of_vtk(data, info_.grid), chosen_, info_.grid);
-            info_.arrays = chosen_.offered;
-            info_.array = chosen_.label();
-            info_.type = chosen_.value_type();
+            chosen_.describe(info_);
             if (all_->resampled())
                 info_.notes.push_back(note_on_resampling(
                     all_->read(), *vtkImageData::SafeDownCast(&data), chosen_, hidden_));
@@ -169,7 +167,6 @@ class VtkDataFile final : public DecodedFile {
         });
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return 1; }
     std::uint32_t slices_at_once() const override { return slices_of_vtk(chosen_, info_); }
     std::uint64_t decoded_bytes() const override { return bytes_of_vtk(chosen_, info_.grid); }
@@ -181,7 +178,6 @@ class VtkDataFile final : public DecodedFile {
   private:
     fs::path path_;
     std::shared_ptr<VtkData> all_; ///< shared with the file's other arrays
-    SeriesInfo info_;
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_;
 };

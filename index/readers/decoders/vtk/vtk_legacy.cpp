@@ -71,9 +71,7 @@ class LegacyFile final : public DecodedFile {
                                      image.GetDirectionMatrix()->GetData(), path_.string());
             chosen_ = choose_scalar(without_flags(arrays_of_vtk(image)), options, path_.string());
             hidden_ = hidden_by_flags(flags_of_vtk(image, info_.grid), chosen_, info_.grid);
-            info_.arrays = chosen_.offered;
-            info_.array = chosen_.label();
-            info_.type = chosen_.value_type();
+            chosen_.describe(info_);
             info_.notes = chosen_.notes();
             std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
                               std::back_inserter(info_.notes));
@@ -82,7 +80,6 @@ class LegacyFile final : public DecodedFile {
         });
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return 1; }
 
     std::uint32_t slices_at_once() const override { return slices_of_vtk(chosen_, info_); }
@@ -95,7 +92,6 @@ class LegacyFile final : public DecodedFile {
 
   private:
     fs::path path_;
-    SeriesInfo info_;
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_;
     vtkNew<vtkStructuredPointsReader> reader_;

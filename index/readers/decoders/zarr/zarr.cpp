@@ -63,7 +63,6 @@ class ZarrVolume final : public DecodedFile {
         part_ = crop_description(info_, options, name_);
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override {
         if (!steps_.empty())
             return steps_.size();
@@ -305,7 +304,6 @@ class ZarrVolume final : public DecodedFile {
     ArrayLayout layout_;
     std::size_t member_ = 0;
     ChosenScalar chosen_;
-    SeriesInfo info_;
     std::optional<VolumePart> part_; ///< if not all is wanted
     MissingValues missing_;
     std::size_t first_channel_ = 0; ///< number of the chosen array's first component

@@ -91,7 +91,7 @@ void SessionCurves::write_to(CurveFolders folders) {
 void SessionCurves::update_profile(const Frame& frame, const ShownArrays& arrays, bool seen) {
     const auto take = [&] {
         for (Profiled& each : profiling_.take()) {
-            profiles_ = false;
+            profile_comes_ = false;
             profiled_ = std::move(each);
         }
     };
@@ -102,9 +102,9 @@ void SessionCurves::update_profile(const Frame& frame, const ShownArrays& arrays
         return;
     const index::ProfileQuery query{arrays.held(frame.state), frame.state.shown_instant(),
                                     ruler->places};
-    if (profiled_.query == query || profiles_)
+    if (profiled_.query == query || profile_comes_)
         return;
-    profiles_ = profiling_.ask(query);
+    profile_comes_ = profiling_.ask(query);
     if (frame.is_live() && frame.sharing.alone())
         return;
     const DrawsOnly waits; // replays, and all walls, show the same

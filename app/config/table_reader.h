@@ -1,6 +1,4 @@
 // Reads tables of TOML files: one rule for each type of value, the keys from the lists of fields.
-//
-//     TableReader(config).read(TomlTable(table, "lab.toml", ""), config);
 #pragma once
 
 #include "app/config/config_checks.h"

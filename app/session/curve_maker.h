@@ -70,7 +70,7 @@ class CurveMaker {
     };
     struct Done {
         CurveSubject subject;
-        std::string failure = {}; ///< of the last step that could not be measured
+        std::string failure = {}; ///< why the last step that failed could not be measured
         std::optional<StepCurve> kept = {};
         std::vector<std::pair<std::uint32_t, std::vector<double>>> steps =
             {}; ///< with their numbers

@@ -41,7 +41,7 @@ Broken broken(const std::string& words, float width) {
 
 float width_without_widow(const std::string& words, float width) {
     const Broken wide = broken(words, width);
-    constexpr float kNarrowest = 0.75f, kFiner = 0.02f; // of the width
+    constexpr float kNarrowest = 0.75f, kFiner = 0.02f; // shares of the width
     if (wide.lines > 1 && wide.lone)
         for (float share = 1.0f - kFiner; share > kNarrowest; share -= kFiner) {
             const Broken narrow = broken(words, share * width);

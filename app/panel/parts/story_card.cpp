@@ -20,7 +20,7 @@ constexpr float kWideCard = 360.0f,
 constexpr float kOverAxes = 118.0f;            ///< the axes and the scale bar stay free
 constexpr float kEdge = 12.0f, kAtEdge = 4.0f; ///< beside and below the card
 constexpr float kFrame = 76.0f;                ///< height of the card without its text
-constexpr float kFewLines = 60.0f; ///< of a text, with less of which the card stands at the edge
+constexpr float kFewLines = 60.0f; ///< height of a text; with less, the card stands at the edge
 constexpr float kCardShare = 0.4f; ///< share of the picture's height that a text has at most
 
 /// @param highest that the text may be, panel pixels

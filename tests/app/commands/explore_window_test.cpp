@@ -135,7 +135,7 @@ TEST_F(ExploreWindow, HasTheSizeThatItHadLast) {
 }
 
 TEST_F(ExploreWindow, OfAnEmulatedRoomGrowsWithTheDisplaysScaleAndFitsOnIt) {
-    screen_.set_dots_per_inch(192);
+    screen_.set_dots_per_inch(120);
     const auto program = explore_sized({"--emulate"});
     const auto is_covered = [&](int y) {
         return screen_.pixel(640, y) != std::array<int, 3>{0, 0, 0};

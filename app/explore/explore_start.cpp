@@ -221,6 +221,7 @@ stereo::Windows open_windows(const ExploreOptions& options, const Config& config
     const stereo::Installation& installation = config.installation;
     if (options.emulate) {
         stereo::ContextOptions room{.title = title, .vsync = config.rendering.vsync};
+        room.fits = room.scales = options.size.empty();
         if (!options.size.empty())
             room.size = {options.size[0], options.size[1]};
         return stereo::open_room(config.rendering.context, installation, room);

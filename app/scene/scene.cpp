@@ -479,6 +479,8 @@ void Scene::draw_among_cells(std::span<const render::View> views, const Picture&
 Scene::CornerWords Scene::words_in_corners(const render::View& view, const Picture& picture) const {
     const OverlayColors overlay = overlay_of(picture);
     const float share = picture.layout.text;
+    const auto chip = upper_corner(view, picture.layout, false),
+               cube = upper_corner(view, picture.layout, true);
     CornerWords words;
     if (picture.legend) {
         std::vector<ColorScale> scales;
@@ -491,11 +493,11 @@ Scene::CornerWords Scene::words_in_corners(const render::View& view, const Pictu
             legend_quads({picture.isosurfaces, info_.value_unit, info_.digits, scales,
                           picture.scale && picture.surfaces, overlay, picture.values.array,
                           lines_of_further(picture), lines_of_ghosts(picture)},
-                         text_pass_, view.size, share);
+                         text_pass_, view.size, share, cube ? cube->low.y : 0.0f);
     }
     if (picture.orientation)
-        words.orientation =
-            orientation_in(view, picture.room_from_physical, info_, text_pass_, overlay, share);
+        words.orientation = orientation_in(view, picture.room_from_physical, info_, text_pass_,
+                                           overlay, share, chip ? chip->low.y : 0.0f);
     if (!picture.caption.empty())
         words.caption = caption_quads(picture.caption, text_pass_, view.size, overlay, share);
     return words;

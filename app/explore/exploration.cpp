@@ -39,8 +39,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <memory>
-#include <optional>
 #include <utility>
 
 namespace isochron::app {

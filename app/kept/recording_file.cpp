@@ -4,8 +4,6 @@
 #include "index/system/input_file.h"
 #include "interaction/error.h"
 
-#include <fmt/format.h>
-
 #include <cstdio>
 
 namespace isochron::app {
@@ -15,9 +13,9 @@ void expect_recording(const std::filesystem::path& path) {
     part += ".part";
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored) && std::filesystem::exists(part, ignored))
-        throw interaction::Error(fmt::format("{}: there is no such file, but {}: a recording that "
-                                             "was cut short, which can be used in its place",
-                                             path.string(), part.filename().string()));
+        throw interaction::Error("{}: there is no such file, but {}: a recording that was cut "
+                                 "short, which can be used in its place",
+                                 path.string(), part.filename().string());
     index::InputFile{path};
 }
 
@@ -25,8 +23,8 @@ interaction::Recording read_recording(const std::filesystem::path& path) {
     expect_recording(path);
     index::InputStream file(path);
     if (const int first = file.peek(); first != EOF && first != '{')
-        throw interaction::Error(fmt::format(
-            "{}: not a recording, which `isochron explore --record` makes", path.string()));
+        throw interaction::Error("{}: not a recording, which `isochron explore --record` makes",
+                                 path.string());
     return interaction::read_recording(file, path.filename().string());
 }
 

@@ -1,10 +1,8 @@
 // The table of measures, and how a surface is measured.
 #include "index/measure/measures.h"
 
-#include "index/error.h"
 #include "index/measure/measured_step.h"
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 

@@ -255,6 +255,8 @@ constexpr OtherNames kOtherNames[] = {
     {"remove_clip", "no clip, clip off, unclip, remove slice, delete clip plane, show whole"},
     {"ruler_tool", "measure, measurement, distance, length, tape, line tool, dimension, caliper, "
                    "how far, how long, width, distance between points"},
+    {"ruler_at_mark", "measure from the mark, distance from the mark, measure to the mark, begin ruler, "
+                      "add place to ruler, distance between marks"},
     {"ruler_angle", "angle, protractor, measure angle, three points, degrees, corner, slope"},
     {"profile", "line profile, plot profile, plot over line, line plot, intensity profile, values "
                 "along a line, transect, cross section curve, sample along line, linescan"},
@@ -877,6 +879,11 @@ void add_tools(Lines& lines) {
     const interaction::Rulers& rulers = asked.rulers;
     remove("remove_ruler", "remove the ruler", rulers.chosen() != nullptr, &Commands::rulers,
            without_ruler(rulers, rulers.picked));
+    if (asked.mark.point)
+        if (interaction::Rulers longer = with_place(rulers, asked.mark.point->position);
+            longer != rulers)
+            lines.add({.name = "ruler_at_mark", .words = "ruler: its next place is the mark"})
+                .commands.rulers = std::move(longer);
     remove("remove_rulers", "remove all rulers", rulers.list.size() > 1, &Commands::rulers,
            interaction::Rulers{.angle = rulers.angle});
     remove("remove_clip", "remove the clip plane", asked.clip.shown, &Commands::clip,

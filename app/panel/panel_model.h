@@ -16,6 +16,8 @@
 #include "interaction/pointed.h"
 #include "render/gl/image.h"
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -115,6 +117,8 @@ struct ListedModel {
     std::string words;    ///< how large it is; empty: nothing is known
     std::string fault;    ///< why it is not shown; empty: it is, or it will be
     bool refused = false; ///< it is not opened unless the user allows it
+    /// Its lowest and highest coordinates, physical space; empty: it is not there.
+    std::optional<std::array<glm::dvec3, 2>> box{};
 };
 
 /// Files of triangles, in the order of their settings.

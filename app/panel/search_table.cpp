@@ -930,7 +930,7 @@ void add_objects(Lines& lines) {
     for (const ItemKind& kind : item_kinds())
         for (std::size_t i = 0; i < kind.count(model); ++i) {
             const Item item = kind.item(model, i);
-            if (kind.places) {
+            if (kind.places && !kind.places(model, i).empty()) {
                 Commands way;
                 way.room_from_physical = model.asked.room_from_physical;
                 go_to_item(kind, model, i, way);

@@ -50,6 +50,8 @@ class Objects : public LayerTest {
                 .data = data_,
                 .asked = asked_,
                 .frame = report_,
+                .models = {.lines = {{.words = "12 triangles",
+                                      .box = {{glm::dvec3(2, 0, 0), glm::dvec3(6, 3, 3)}}}}},
                 .controls = controls_,
                 .head = head_};
     }
@@ -192,9 +194,11 @@ TEST_F(Objects, OutOfSightAreBroughtIntoViewByTheirLinesAndInSightStay) {
     data_.cells = {4, 4, 4};
     data_.physical_from_box = glm::dmat4(glm::dmat3(4.0));
     head_ = head;
-    for (const std::string_view name : {"slice", "clip", "mark", "ruler"}) {
+    for (const std::string_view name : {"slice", "clip", "model", "piece", "mark", "ruler"}) {
         const ItemKind& kind = this->kind(name);
         for (std::size_t i = 0; i < kind.count(model()); ++i) {
+            if (kind.places(model(), i).empty()) // dust lies nowhere
+                continue;
             SCOPED_TRACE(testing::Message() << name << i);
             asked_.room_from_physical = {{0.5, 1.0, 3.0}, {1, 0, 0, 0}, 0.1}; // behind the head
             const double scale = asked_.room_from_physical.scale;
@@ -255,9 +259,11 @@ TEST_F(Objects, HaveLinesInTheSearchByTheirNames) {
     EXPECT_EQ(by_name["mark=tail"]->words, "hide mark tail 5 1/s");
     EXPECT_FALSE(by_name["mark=tail"]->commands.marks->at(1).point.shown);
     EXPECT_EQ(by_name["objects"]->value, "15 of 17 shown");
-    for (const char* name : {"surface=1", "slice=2", "clip=box", "model=hull.stl", "ghosts=all",
-                             "piece=1", "ruler=2", "curve=drawer", "see_ruler=1", "see_clip=box"})
+    for (const char* name :
+         {"surface=1", "slice=2", "clip=box", "model=hull.stl", "ghosts=all", "piece=1", "ruler=2",
+          "curve=drawer", "see_ruler=1", "see_clip=box", "see_model=hull.stl", "see_piece=2"})
         EXPECT_TRUE(by_name.contains(name)) << name;
+    EXPECT_FALSE(by_name.contains("see_piece=3")) << "dust lies nowhere";
 }
 
 TEST_F(Objects, AreLinesOfThePanelWhoseWordsPickAndGo) {

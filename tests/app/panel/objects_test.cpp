@@ -1,6 +1,7 @@
 // The list of what is in the picture: its table of kinds, its lines on the panel, and in the search.
 #include "app/panel/item_table.h"
 
+#include "app/panel/panel_in_room.h"
 #include "app/panel/search_table.h"
 #include "interaction/navigation/key_frames.h"
 #include "interaction/navigation/navigation.h"
@@ -274,6 +275,47 @@ TEST_F(Objects, AreLinesOfThePanelWhoseWordsPickAndGo) {
     EXPECT_EQ(picked.slices->picked, 0u);
     const Commands chosen = click_word("12 1/s");
     EXPECT_EQ(chosen.picked, 1u);
+}
+
+/// On the panel in the room the names of the pages and the lines of the tools keep their places; what is
+/// between them, and lines for which there is no room, come by the stick.
+TEST_F(Objects, InTheRoomAreScrolledBetweenTheNamesOfThePagesAndTheLinesOfTheTools) {
+    asked_.marks.clear();
+    const glm::ivec2 size(PanelInRoom::kPixels);
+    const auto at = [&](const char* word) {
+        return place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), word);
+    };
+    const auto lay_out = [&](std::optional<glm::vec2> pointed, bool pressed, float notches) {
+        PanelModel room = model();
+        room.place = PanelPlace::in_room;
+        layer_.point(pointed, pressed, notches);
+        layer_.lay_out(size, room, time_ += interaction::Seconds(0.1));
+    };
+    const auto scroll_down = [&](glm::vec2 pointed) {
+        for (int i = 0; i < 12; ++i)
+            lay_out(pointed, false, i < 8 ? -1.0f : 0.0f);
+    };
+    for (int i = 0; i < 4; ++i)
+        lay_out({}, false, 0);
+    const auto first = at("clip across");
+    ASSERT_TRUE(first) << "the first line of the tools";
+    EXPECT_FALSE(at("keep")) << "the line of the mark, for which there is no room";
+    EXPECT_FALSE(at("pieces")) << "the page's last row";
+    scroll_down({first->x, first->y});
+    EXPECT_TRUE(at("keep"));
+    EXPECT_FALSE(at("clip across"));
+    scroll_down({first->x, first->y - 24}); // below the histogram, which the stick zooms
+    EXPECT_TRUE(at("pieces"));
+    EXPECT_FALSE(at("log")) << "what the page began with";
+    EXPECT_TRUE(at("Surfaces")) << "its name stays";
+    EXPECT_TRUE(at("keep"));
+    asked_.slices = {};
+    asked_.clip = {};
+    asked_.clip_box = {};
+    asked_.rulers = {};
+    for (int i = 0; i < 4; ++i)
+        lay_out({}, false, 0);
+    EXPECT_TRUE(at("keep")) << "one line is seen whole";
 }
 
 TEST_F(Objects, AllStandInAListThatScrolls) {

@@ -101,7 +101,7 @@ struct PanelWork {
     const StepSurvey* survey = nullptr;         ///< survey of the shown step; null: none yet
 };
 
-using interaction::kMarkCurve, interaction::kProfileCurve;
+using interaction::kDistanceCurve, interaction::kMarkCurve, interaction::kProfileCurve;
 
 /// Numbers of the surfaces over all steps.
 struct PanelCurves {

@@ -305,6 +305,8 @@ constexpr OtherNames kOtherNames[] = {
     {"curves=area", "surface area, size of the surface, area over time, how large"},
     {"curves=volume", "volume over time, enclosed volume, how large, how big, size of the vortex, "
                       "amount"},
+    {"curves=distance", "distance over time, distance to the surface, distance to the wall, how far, "
+                        "how far from here, nearest distance, gap, clearance, how far in each step"},
     {"curves=pieces", "connected components, connectivity, count objects, number of objects, "
                       "number of pieces"},
     {"curves=euler", "genus, topology, holes, handles, euler characteristic"},
@@ -1013,8 +1015,8 @@ void add_curves(Lines& lines) {
                     asked.curves);
     };
     for (const index::Measure& each : index::measures())
-        if (each.unit != index::MeasureUnit::value ||
-            asked.coloring.by == interaction::ColorBy::value)
+        if (is_measured(each, asked.coloring.by == interaction::ColorBy::value,
+                        asked.mark.point.has_value()))
             add(each.name, fmt::format("curve: {} over time", words_of_measure(each.name)));
     if (asked.mark.point)
         add(kMarkCurve, "curve: value at the mark over time");

@@ -74,7 +74,7 @@ std::vector<Choice> choices_of(const PanelModel& model) {
     }
     const std::span<const index::Measure> all = index::measures();
     for (std::size_t i = 0; i < all.size(); ++i)
-        if (all[i].unit != index::MeasureUnit::value || other)
+        if (is_measured(all[i], other.has_value(), model.asked.mark.point.has_value()))
             choices.push_back(
                 {std::string(all[i].name), i, unit_of(all[i], model.info, other_unit),
                  std::string(all[i].definition) + (all[i].unit == index::MeasureUnit::value
@@ -448,6 +448,8 @@ std::string words_of_measure(std::string_view name) {
         return "value at the mark";
     if (name == kProfileCurve)
         return "values along the ruler";
+    if (name == kDistanceCurve)
+        return "mark to surface";
     std::string words(name);
     std::ranges::replace(words, '-', ' ');
     return words;

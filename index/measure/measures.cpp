@@ -144,7 +144,8 @@ std::vector<MeasuredPiece> measured_pieces(MeasuredStep& step) {
     return all;
 }
 
-/// What the pieces that are left out enclose; NaN unless all of them are closed.
+/// The volume above that goes with the pieces that are left out: what these enclose if all of them are
+/// closed, or else all but what the kept ones enclose, if these are closed around higher values. Else NaN.
 double left_out(MeasuredStep& step) {
     if (step.has_all_pieces())
         return 0;
@@ -165,7 +166,9 @@ double left_out(MeasuredStep& step) {
         return kUndefined;
     MeasuredStep whole = step.with_all_pieces();
     const Closed all = closed(whole), kept = closed(step);
-    return all.others == kept.others ? all.volume - kept.volume : kUndefined;
+    if (all.others == kept.others)
+        return all.volume - kept.volume;
+    return kept.others == 0 && kept.volume > 0 ? step.volumes().above - kept.volume : kUndefined;
 }
 
 constexpr std::array<Measure, 12> kMeasures{{

@@ -90,8 +90,9 @@ struct MeasureWishes {
     std::optional<glm::dvec3> from = std::nullopt;
     bool pieces = false;
     /// Measures only the pieces that this keeps (with `surface` 0) of the surface in the box, before
-    /// it is cut. From the volumes is taken what the others enclose: they are NaN unless these are
-    /// closed and nothing is cut; `bodies` is NaN.
+    /// it is cut. From the volumes is taken what the others enclose, if these are closed; or else the
+    /// volume is what the kept ones enclose, if those are closed around higher values. Else, and where
+    /// something is cut, volumes are NaN; `bodies` is NaN.
     PieceFilter kept = {};
     /// Numbers of the measures that are wanted; the others are NaN. Empty: all.
     std::vector<std::size_t> only = {};

@@ -93,6 +93,26 @@ std::string exact_range_text(double low, double high, const index::SeriesInfo& i
                : fmt::format("{} to {}{}", low, high, unit);
 }
 
+std::string lengths_text(const std::array<double, 3>& lengths, const std::string& unit) {
+    const auto [least, most] = std::ranges::minmax(lengths);
+    const auto exponent = [](double length) {
+        return length > 0 ? static_cast<int>(std::floor(std::log10(length))) : 0;
+    };
+    constexpr int kMostDecimals = 5, kMostDigits = 6; // else powers of ten
+    const int high = exponent(most), low = exponent(least);
+    int decimals = std::max({0, 2 - high, least > 0 ? 1 - low : 0});
+    if (decimals > kMostDecimals || high >= kMostDigits)
+        return fmt::format("{:.3g}{}", fmt::join(lengths, " x "), with_space(unit));
+    const auto whole = [&](double length) { // in the decimals but the last
+        const double step = std::pow(10, 1 - decimals);
+        return std::abs(std::round(length / step) * step - length) < 0.05 * step;
+    };
+    while (decimals > 0 && std::ranges::all_of(lengths, whole))
+        --decimals;
+    return fmt::format("{:.{}f} x {:.{}f} x {:.{}f}{}", lengths[0], decimals, lengths[1], decimals,
+                       lengths[2], decimals, with_space(unit));
+}
+
 std::string missing_text(std::uint64_t missing, const index::SeriesInfo& info) {
     if (missing == 0)
         return "";

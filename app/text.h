@@ -3,6 +3,7 @@
 
 #include "index/volume/volume_series.h"
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -37,6 +38,10 @@ std::string range_text(double low, double high, const std::string& unit = {});
 
 /// `284.84042 to 289.36212 K`: both ends exactly, in the digits that the type of the values carries.
 std::string exact_range_text(double low, double high, const index::SeriesInfo& info);
+
+/// `0.886 x 0.886 x 0.0454 m`: lengths of a box, all in as many decimals, which say the shortest one in
+/// two digits and the longest one in three at least.
+std::string lengths_text(const std::array<double, 3>& lengths, const std::string& unit);
 
 /// `3.7 %`: the share of the values of all steps that are missing (NaN); empty: none is.
 std::string missing_text(std::uint64_t missing, const index::SeriesInfo& info);

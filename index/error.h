@@ -1,7 +1,10 @@
 // The one exception type of the index floor.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <stdexcept>
+#include <utility>
 
 namespace isochron::index {
 
@@ -10,6 +13,10 @@ namespace isochron::index {
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
+    /// The message as a format with its values.
+    template <class... Values>
+    explicit Error(fmt::format_string<Values...> text, Values&&... values)
+        : std::runtime_error(fmt::format(text, std::forward<Values>(values)...)) {}
 };
 
 } // namespace isochron::index

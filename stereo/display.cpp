@@ -3,15 +3,12 @@
 
 #include "stereo/views_in_target.h"
 
-#include <fmt/format.h>
-
 #include <glm/common.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace isochron::stereo {
 namespace {
@@ -291,14 +288,13 @@ EyePicture Display::shown_at(Eye place, std::size_t viewport) const {
 
 EyePicture Display::eye_picture(Eye eye, std::size_t viewport) const {
     if (viewport >= targets_.size())
-        throw render::Error(fmt::format("window {}: viewport {} asked for, there are {}",
-                                        window_.name, viewport, targets_.size()));
+        throw render::Error("window {}: viewport {} asked for, there are {}", window_.name,
+                            viewport, targets_.size());
     const std::vector<Eye> drawn = eyes_of(mode_);
     const auto found = std::ranges::find(drawn, eye);
     if (found == drawn.end() || !targets_[viewport])
-        throw render::Error(fmt::format("window {}: the {} eye's picture asked for, mode {} does "
-                                        "not draw it",
-                                        window_.name, name_of(eye), stereo::name_of(mode_)));
+        throw render::Error("window {}: the {} eye's picture asked for, mode {} does not draw it",
+                            window_.name, name_of(eye), stereo::name_of(mode_));
     const glm::ivec2 size = region_of(window_.viewports[viewport], place_of(eye, mode_)).size;
     const auto number = static_cast<std::size_t>(found - drawn.begin());
     return {&*targets_[viewport], corner_in_target(number, size), size};
@@ -310,8 +306,8 @@ glm::ivec2 Display::eye_size(std::size_t viewport) const {
 
 render::Image Display::read_right_buffer() const {
     if (!right_buffer_)
-        throw render::Error(fmt::format("window {}: the right buffer asked for, mode {} has none",
-                                        window_.name, stereo::name_of(mode_)));
+        throw render::Error("window {}: the right buffer asked for, mode {} has none", window_.name,
+                            stereo::name_of(mode_));
     return right_buffer_->read();
 }
 

@@ -17,7 +17,6 @@
 #include "stereo/screen.h"
 
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 #include <functional>
 #include <optional>

@@ -16,7 +16,6 @@
 #include "stereo/stereo_mode.h"
 
 #include <array>
-#include <span>
 #include <string>
 
 namespace isochron::stereo {

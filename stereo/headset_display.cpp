@@ -4,8 +4,6 @@
 #include "render/gl/driver.h"
 #include "stereo/views_in_target.h"
 
-#include <fmt/format.h>
-
 #include <glm/common.hpp>
 
 namespace isochron::stereo {
@@ -94,8 +92,8 @@ void HeadsetDisplay::present() {
 
 render::Image HeadsetDisplay::read_eye(Eye eye) const {
     if (!target_)
-        throw render::Error(
-            fmt::format("headset: the {} eye's picture asked for, none was drawn", name_of(eye)));
+        throw render::Error("headset: the {} eye's picture asked for, none was drawn",
+                            name_of(eye));
     return target_->read(part(eye).corner, part(eye).size);
 }
 

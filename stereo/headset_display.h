@@ -6,7 +6,6 @@
 #include "stereo/headset.h"
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <span>
 #include <utility>

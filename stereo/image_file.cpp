@@ -9,8 +9,6 @@
 #include "render/gl/gl.h"
 #include "stereo/image_module/image_module.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -22,7 +20,6 @@
 #include <string_view>
 #include <utility>
 #include <variant>
-#include <vector>
 
 namespace isochron::stereo {
 namespace {
@@ -40,7 +37,7 @@ Function* picture_function(const char* name, const std::filesystem::path& pictur
     try {
         index::file_of_program("libisochron_images.so");
     } catch (const index::Error& error) {
-        throw index::Error(fmt::format("{}: {}", picture.string(), error.what()));
+        throw index::Error("{}: {}", picture.string(), error.what());
     }
     static std::atomic<bool> loaded = false;
     if (!loaded && index::addresses_left() < kModuleAddresses)
@@ -51,8 +48,8 @@ Function* picture_function(const char* name, const std::filesystem::path& pictur
         loaded = true;
         return function;
     } catch (const index::Error& error) {
-        throw index::Error(fmt::format("{}: pictures need the package {}: {}", picture.string(),
-                                       ISOCHRON_PICTURE_PACKAGE, error.what()));
+        throw index::Error("{}: pictures need the package {}: {}", picture.string(),
+                           ISOCHRON_PICTURE_PACKAGE, error.what());
     }
 }
 
@@ -75,7 +72,7 @@ std::optional<PictureFormat> format_of(const std::filesystem::path& path) {
 /// @throws render::Error naming the picture, if the module says one
 void check(const std::string& error, const std::filesystem::path& picture) {
     if (!error.empty())
-        throw render::Error(fmt::format("{}: {}", picture.string(), error));
+        throw render::Error("{}: {}", picture.string(), error);
 }
 
 struct ReadFile {
@@ -90,8 +87,8 @@ Reply expect_reply(index::ReaderReply reply, const std::filesystem::path& pictur
         throw render::Error(refused->message);
     auto* expected = std::get_if<Reply>(&reply);
     if (!expected)
-        throw render::Error(
-            fmt::format("{}: its reader sent another reply than was asked for", picture.string()));
+        throw render::Error("{}: its reader sent another reply than was asked for",
+                            picture.string());
     return std::move(*expected);
 }
 
@@ -112,8 +109,8 @@ ReadFile read_in_reader(const std::filesystem::path& path, bool pixels) {
         if (pixels) {
             const std::uint64_t count = std::uint64_t{read.width} * read.height;
             if (count == 0 || count > kMostPixels)
-                throw render::Error(fmt::format("{}: a picture of {} x {} pixels cannot be read",
-                                                path.string(), read.width, read.height));
+                throw render::Error("{}: a picture of {} x {} pixels cannot be read", path.string(),
+                                    read.width, read.height);
             const auto memory = reader->memory(4 * count);
             reader->ask(index::TakePicture{});
             expect_reply<index::SlabRead>(reader->reply(), path);
@@ -123,7 +120,7 @@ ReadFile read_in_reader(const std::filesystem::path& path, bool pixels) {
         }
         readers.give_back(std::move(reader));
     } catch (const index::ReaderEnded& ended) {
-        throw render::Error(fmt::format("{}: cannot be read: {}", path.string(), ended.what()));
+        throw render::Error("{}: cannot be read: {}", path.string(), ended.what());
     }
     return file;
 }
@@ -138,16 +135,13 @@ std::vector<std::byte> encoded_image(const render::Image& image, const std::file
                                      const std::string& note) {
     const std::optional<PictureFormat> format = format_of(path);
     if (!format)
-        throw render::Error(fmt::format("{}: pictures are written as .png, .exr, .tiff or .jpg, "
-                                        "not as '{}'",
-                                        path.string(), path.extension().string()));
+        throw render::Error("{}: pictures are written as .png, .exr, .tiff or .jpg, not as '{}'",
+                            path.string(), path.extension().string());
     const auto pixels = static_cast<std::size_t>(std::max(image.width, 0)) *
                         static_cast<std::size_t>(std::max(image.height, 0));
     if (pixels == 0 || image.rgba.size() != 4 * pixels)
-        throw render::Error(fmt::format("{}: a picture of {}x{} pixels with {} bytes cannot be "
-                                        "written",
-                                        path.string(), image.width, image.height,
-                                        image.rgba.size()));
+        throw render::Error("{}: a picture of {}x{} pixels with {} bytes cannot be written",
+                            path.string(), image.width, image.height, image.rgba.size());
     static const auto encode = picture_function<image_module::Encode>(image_module::kEncode, path);
     std::vector<std::byte> bytes;
     std::string error;
@@ -159,9 +153,7 @@ std::vector<std::byte> encoded_image(const render::Image& image, const std::file
 void write_image(const render::Image& image, const std::filesystem::path& path,
                  const std::string& note) {
     const std::vector<std::byte> bytes = encoded_image(image, path, note);
-    index::NewFile file(path);
-    file.write_at(0, bytes);
-    file.commit();
+    index::write_file(path, bytes);
 }
 
 std::string read_note(const std::filesystem::path& path) {

@@ -1,8 +1,6 @@
 // Combines two eyes' pictures in a fragment shader.
 #include "stereo/multiplex.h"
 
-#include "render/gl/shader.h"
-
 #include <algorithm>
 #include <array>
 

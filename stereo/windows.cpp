@@ -87,7 +87,7 @@ Windows open_windows(ContextKind kind, const Installation& installation,
         } catch (const render::Error& error) {
             if (installation.windows.size() == 1)
                 throw;
-            throw render::Error(fmt::format("window {}: {}", window.name, error.what()));
+            throw render::Error("window {}: {}", window.name, error.what());
         }
         opened.windows_.push_back(opened.owned_.back().get());
         opened.drawing_ = opened.windows_.front();

@@ -10,8 +10,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <limits>
-#include <utility>
 
 namespace isochron::app {
 namespace {

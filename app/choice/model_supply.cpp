@@ -2,7 +2,6 @@
 #include "app/choice/model_supply.h"
 
 #include "app/text.h"
-#include "index/error.h"
 #include "index/readers/formats/model_file.h"
 #include "index/system/links/link.h"
 #include "index/system/whole_path.h"
@@ -105,12 +104,13 @@ bool ModelSupply::may_open(const fs::path& file) const {
                folders_, [&](const fs::path& folder) { return index::lies_within(real, folder); });
 }
 
-ModelSupply::Read ModelSupply::read(const Wanted& wanted, const Asking& /*asking*/) {
+ModelSupply::Read ModelSupply::read(const Wanted& wanted, const Asking& asking) {
     const fs::path file = wanted.step
                               ? index::file_of_model_series(wanted.file, *wanted.step, wanted.steps)
                               : wanted.file;
     return {wanted.path,
-            std::make_shared<const index::TriangleMesh>(index::read_model(file, wanted.unit)),
+            std::make_shared<const index::TriangleMesh>(
+                index::read_model(file, wanted.unit, asking.stop)),
             {}};
 }
 

@@ -4,7 +4,6 @@
 #include "app/scene/color_scale.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace isochron::app {
 namespace {

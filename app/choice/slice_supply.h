@@ -3,7 +3,6 @@
 
 #include "app/choice/frame.h"
 #include "app/frame/asker.h"
-#include "index/extraction/slice_values.h"
 #include "index/file/index_file.h"
 
 #include <functional>

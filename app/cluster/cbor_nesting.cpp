@@ -3,8 +3,6 @@
 
 #include "interaction/error.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -60,11 +58,10 @@ void expect_shallow_cbor(std::span<const std::byte> message) {
             message = message.subspan(head->count);
         } else if (pairs || head->type == CborType::array) {
             if (depth == kDeepestMessage)
-                throw interaction::Error(
-                    fmt::format("message: nested deeper than {} levels", kDeepestMessage));
+                throw interaction::Error("message: nested deeper than {} levels", kDeepestMessage);
             if (head->count > message.size()) // each item takes a byte
-                throw interaction::Error(
-                    fmt::format("message: {} items in {} bytes", head->count, message.size()));
+                throw interaction::Error("message: {} items in {} bytes", head->count,
+                                         message.size());
             items[depth++] = head->count * (pairs ? 2 : 1);
         }
         while (depth > 0 && items[depth - 1] == 0)

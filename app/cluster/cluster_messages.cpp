@@ -9,8 +9,6 @@
 #include "interaction/recording/json_values.h"
 #include "interaction/recording/recording_json.h"
 
-#include <fmt/format.h>
-
 #include <limits>
 
 namespace isochron::app {
@@ -33,8 +31,7 @@ json decoded(std::span<const std::byte> bytes) {
     try {
         return json::from_cbor(first, first + bytes.size());
     } catch (const json::exception& error) {
-        throw interaction::Error(
-            fmt::format("message: expected CBOR: {}", index::json_mistake(error)));
+        throw interaction::Error("message: expected CBOR: {}", index::json_mistake(error));
     }
 }
 
@@ -131,8 +128,8 @@ PictureState state_from(const json& value) {
         PictureState::of(shown, beside, parts ? footprint_from(*parts) : render::Footprint{},
                          boolean(members.at("whole"), "whole"));
     if (!state || (parts != nullptr) != state->in_parts().has_value())
-        throw interaction::Error(fmt::format("state: expected one of the table, got {} beside {}",
-                                             name_of(beside), name_of(shown)));
+        throw interaction::Error("state: expected one of the table, got {} beside {}",
+                                 name_of(beside), name_of(shown));
     members.done({"shown", "beside", "whole", "in_parts"});
     return *state;
 }

@@ -25,7 +25,6 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
@@ -69,11 +68,6 @@ Option& Option::required() {
     return *this;
 }
 
-Option& Option::type_name(const std::string& name) {
-    option_->type_name(name);
-    return *this;
-}
-
 Option& Option::group(const std::string& heading) {
     option_->group(heading);
     return *this;
@@ -89,18 +83,8 @@ Option& Option::hidden() {
     return *this;
 }
 
-Option& Option::values(int count) {
-    option_->expected(count);
-    return *this;
-}
-
 Option& Option::repeatable() {
     option_->allow_extra_args(false);
-    return *this;
-}
-
-Option& Option::value_optional() {
-    option_->expected(0, 1);
     return *this;
 }
 
@@ -223,13 +207,23 @@ struct Taken<std::vector<T>> {
 } // namespace
 
 template <class T>
-Option Command::option(const std::string& names, T& value, const std::string& help) {
+Option Command::option(const std::string& form, T& value, const std::string& help) {
     using Value = Taken<T>::Value;
+    const std::size_t names_end = std::min(form.find(' '), form.size());
+    const std::string names = form.substr(0, names_end);
+    const std::string shown = form.substr(std::min(names_end + 1, form.size()));
     // A command's own option takes the place of one that every command has.
     if (std::ranges::find(kTelling, names, &std::pair<const char*, const char*>::first) !=
         std::end(kTelling))
         app_->remove_option(app_->get_option(names));
-    Option added(*app_->add_option(names, value, help));
+    CLI::Option& option = *app_->add_option(names, value, help);
+    if (!shown.empty())
+        option.type_name(shown);
+    if (shown.starts_with('['))
+        option.expected(0, 1);
+    else if (const auto further = std::ranges::count(shown, ' '); further > 0)
+        option.expected(static_cast<int>(further) + 1);
+    Option added(option);
     if constexpr (std::is_floating_point_v<Value>)
         added.accepted_by(
             [](const std::string& text) {

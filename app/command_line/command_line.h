@@ -3,19 +3,21 @@
 //     void add_verify(Command& program) {
 //         auto path = std::make_shared<std::filesystem::path>();
 //         Command command = program.subcommand("verify", "Compare every checksum of an index.");
-//         command.option("file", *path, "Index").required().type_name("NAME.isochron");
+//         command.option("file NAME.isochron", *path, "Index").required();
 //         command.on_run([path] { run_verify(*path); });
 //     }
 #pragma once
 
 #include "app/command_line/command_reference.h"
 
+#include <fmt/core.h>
+
 #include <cstddef>
 #include <functional>
 #include <initializer_list>
-#include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -29,6 +31,10 @@ namespace isochron::app {
 class UsageError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
+    /// The message as a format with its values.
+    template <class... Values>
+    explicit UsageError(fmt::format_string<Values...> text, Values&&... values)
+        : std::runtime_error(fmt::format(text, std::forward<Values>(values)...)) {}
 };
 
 /// Thrown by the other processes of a job when rank 0 reports an error: they print nothing and
@@ -41,20 +47,14 @@ class Option {
     explicit Option(CLI::Option& option) : option_(&option) {}
 
     Option& required();
-    /// What help shows for the value, such as FILE.
-    Option& type_name(const std::string& name);
     /// The heading under which help lists the option.
     Option& group(const std::string& heading);
     /// Refused if `other` is not given.
     Option& needs(const Option& other);
     /// Help says nothing of it: another spelling of earlier versions.
     Option& hidden();
-    /// Takes exactly `count` values.
-    Option& values(int count);
     /// Takes one value each time that it is given, and may be given several times.
     Option& repeatable();
-    /// May be given without a value: then the variable is an empty text.
-    Option& value_optional();
     /// Takes several values with commas between them.
     Option& comma_separated();
     /// Help shows the value that the variable has now.
@@ -90,12 +90,14 @@ class Command {
     Command subcommand(const std::string& name, const std::string& description);
     /// The user must name one of the subcommands.
     void require_subcommand();
-    /// `names` is `--long`, `-s,--long`, or a word for a positional argument. Further long names are
-    /// spellings of earlier versions, which are accepted and not told: `-o,--output,--out`. `value`
-    /// must live until the command has run. Its type says what is parsed: a path, a string, a finite
-    /// number, a std::optional of one, or a std::vector of them.
+    /// `form` is the option as help shows it, `-s,--long FILE`, or a word for a positional argument
+    /// with its value, `file INDEX`. `--size PIXELS PIXELS` takes exactly two values, and
+    /// `--control [SOCKET]` may be given without one: then the variable is an empty text. Further long
+    /// names are spellings of earlier versions, which are accepted and not told: `-o,--output,--out`.
+    /// `value` must live until the command has run. Its type says what is parsed: a path, a string, a
+    /// finite number, a std::optional of one, or a std::vector of them.
     template <class T>
-    Option option(const std::string& names, T& value, const std::string& help);
+    Option option(const std::string& form, T& value, const std::string& help);
     Option flag(const std::string& names, bool& value, const std::string& help);
     /// Examples at the end of the command's help: commands as a user types them.
     void examples(const std::vector<std::string>& lines);

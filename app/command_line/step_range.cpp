@@ -29,15 +29,14 @@ std::vector<std::uint32_t> steps_of(const std::string& text, const std::string& 
     const std::vector<std::uint64_t> numbers =
         whole_numbers(text, ":").value_or(std::vector<std::uint64_t>());
     if (numbers.empty() || numbers.size() > 3)
-        throw UsageError(fmt::format("{}: expected a step, or FIRST:LAST or FIRST:LAST:STRIDE with "
-                                     "both ends included, got {}",
-                                     option, text));
+        throw UsageError("{}: expected a step, or FIRST:LAST or FIRST:LAST:STRIDE with both ends "
+                         "included, got {}",
+                         option, text);
     const std::uint64_t first = numbers[0], last = numbers.size() > 1 ? numbers[1] : first;
     const std::uint64_t stride = numbers.size() > 2 ? numbers[2] : 1;
     if (first > last || last >= steps || stride == 0)
-        throw UsageError(
-            fmt::format("{} {}: expected steps 0 to {}, the first not after the last{}", option,
-                        text, steps - 1, stride == 0 ? ", and a stride above 0" : ""));
+        throw UsageError("{} {}: expected steps 0 to {}, the first not after the last{}", option,
+                         text, steps - 1, stride == 0 ? ", and a stride above 0" : "");
     std::vector<std::uint32_t> named;
     for (std::uint64_t step = first; step <= last; step += stride)
         named.push_back(static_cast<std::uint32_t>(step));

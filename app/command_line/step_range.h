@@ -10,7 +10,7 @@
 
 namespace isochron::app {
 
-/// Whole numbers with a character of `between` after each but the last, as in `0:63`.
+/// Whole numbers with one of the characters of `between` between each two of them: `0:63`.
 /// @return empty if there is anything else
 std::optional<std::vector<std::uint64_t>> whole_numbers(std::string_view text,
                                                         std::string_view between);
@@ -21,7 +21,7 @@ std::optional<std::vector<std::uint64_t>> whole_numbers(std::string_view text,
 /// @throws UsageError: it cannot be read, or names a step that is not there
 std::vector<std::uint32_t> steps_of(const std::string& text, const std::string& option,
                                     std::size_t steps);
-/// As `steps_of`, where no text stands for all steps.
+/// As `steps_of`; an empty text stands for all steps.
 std::vector<std::uint32_t> steps_or_all(const std::string& text, const std::string& option,
                                         std::size_t steps);
 

@@ -205,30 +205,27 @@ void add_build(Command& program) {
                       "isochron build 'run42/*.vti' -o run42.isochron --append"});
     command
         .option(
-            "files", arguments->files,
+            "files FILE", arguments->files,
             "A .pvd file, or the files of all steps in any order; a quoted pattern ('t*.vti') "
             "stands for all files that match. An index, also one of an earlier version, is read "
             "like a file. A dataset within an HDF5 file is run.h5:/fields/rho")
-        .required()
-        .type_name("FILE");
+        .required();
     command
         .option(
-            "-o,--output,--out", arguments->out,
+            "-o,--output,--out INDEX", arguments->out,
             "Index to write, NAME.isochron. An index that exists is replaced once the new one is "
             "complete; any other file needs --force, and files that are read are never replaced")
-        .required()
-        .type_name("INDEX");
+        .required();
     add_reading_options(command, *arguments);
 
     const auto [lattice, variation] = add_index_options(command, *arguments);
     command
         .option(
-            "--timeout", arguments->timeout,
+            "--timeout SECONDS", arguments->timeout,
             "In a job of several processes (mpirun): end the job once a process has been silent "
             "for this long")
         .between(0.1, 86400.0)
         .shows_default()
-        .type_name("SECONDS")
         .group("Index");
     command.flag("--force", arguments->build.replaces_any,
                  "Let --output replace a file that is no index");

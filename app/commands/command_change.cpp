@@ -6,7 +6,6 @@
 #include "app/output/guarded_outputs.h"
 #include "app/telling.h"
 #include "app/text.h"
-#include "index/error.h"
 #include "index/extraction/extractor.h"
 #include "index/search/cell_change.h"
 #include "index/volume/instant_text.h"
@@ -128,54 +127,39 @@ void add_change(Command& program) {
     command.examples({"isochron change run42.isochron --isovalue 100 --step 0 --to-step 1",
                       "isochron change run42.isochron --isovalue 100 --step 0 --to-step 1 --added "
                       "come.bin --removed gone.bin"});
-    command.option("file", arguments->file, "Index to search").required().type_name("INDEX");
+    command.option("file INDEX", arguments->file, "Index to search").required();
+    command.option("--array NAME", arguments->array,
+                   "Array to search, where the index has several (default: its first)");
+    command.option("--isovalue VALUE", arguments->isovalue, "Isovalue before the change")
+        .required();
+    command.option("--step STEP", arguments->step, "Step before the change, from 0").required();
+    command.option("--to-isovalue VALUE", arguments->to_isovalue,
+                   "Isovalue after the change (default: the one before)");
+    command.option("--to-step STEP", arguments->to_step,
+                   "Step after the change (default: the one before)");
     command
-        .option("--array", arguments->array,
-                "Array to search, where the index has several (default: its first)")
-        .type_name("NAME");
-    command.option("--isovalue", arguments->isovalue, "Isovalue before the change")
-        .required()
-        .type_name("VALUE");
-    command.option("--step", arguments->step, "Step before the change, from 0")
-        .required()
-        .type_name("STEP");
-    command
-        .option("--to-isovalue", arguments->to_isovalue,
-                "Isovalue after the change (default: the one before)")
-        .type_name("VALUE");
-    command
-        .option("--to-step", arguments->to_step, "Step after the change (default: the one before)")
-        .type_name("STEP");
-    command
-        .option("--fraction", arguments->fraction,
+        .option("--fraction FRACTION", arguments->fraction,
                 "Begin between --step and the step behind it: 32768 is halfway, as for `query`")
         .between(0u, 65535u)
-        .shows_default()
-        .type_name("FRACTION");
+        .shows_default();
     command
-        .option("--to-fraction", arguments->to_fraction,
+        .option("--to-fraction FRACTION", arguments->to_fraction,
                 "End between --to-step and the step behind it (default: --fraction, or 0 with "
                 "--to-step)")
-        .between(0u, 65535u)
-        .type_name("FRACTION");
-    command
-        .option("--added", arguments->added,
-                "Write the numbers of the cells that become active to this file, as `query "
-                "--output` does")
-        .type_name("FILE");
-    command
-        .option("--removed", arguments->removed,
-                "Write the numbers of the cells that stop being active to this file")
-        .type_name("FILE");
+        .between(0u, 65535u);
+    command.option("--added FILE", arguments->added,
+                   "Write the numbers of the cells that become active to this file, as `query "
+                   "--output` does");
+    command.option("--removed FILE", arguments->removed,
+                   "Write the numbers of the cells that stop being active to this file");
     command.flag("--force", arguments->force,
                  "Let --added and --removed replace any file but one that is read; without this "
                  "option they replace only numbers of cells");
     command
-        .option("--repeat", arguments->repeats,
+        .option("--repeat COUNT", arguments->repeats,
                 "Number of times that the search is repeated; the median of the times is printed")
         .between(1u, 1000u)
-        .shows_default()
-        .type_name("COUNT");
+        .shows_default();
     command.on_run([arguments] { run_change(*arguments); });
 }
 

@@ -10,10 +10,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -51,7 +49,7 @@ Config sound_config(const std::string& text, const std::string& source,
         const std::string what = error.what();
         if (!what.starts_with(name + ":"))
             throw;
-        throw ConfigError(fmt::format("{}{}", source, what.substr(what.find(": "))));
+        throw ConfigError("{}{}", source, what.substr(what.find(": ")));
     }
 }
 
@@ -65,9 +63,7 @@ void import(ImportOptions options) {
     if (options.out) {
         guard_outputs({{*options.out, OutputKind::configuration, 0, text}}, {{options.file}},
                       options.force);
-        index::NewFile file(*options.out);
-        file.write_at(0, std::as_bytes(std::span(text)));
-        file.commit();
+        index::write_file(*options.out, text);
         tell_result({{"file", *options.out}});
     } else {
         tell_result({{"configuration", text}});
@@ -102,26 +98,21 @@ void add_config(Command& program) {
     command.examples(
         {"isochron config import cave.pvx -o my-cave.toml",
          "isochron config import cave.pvx -o in-feet.toml --unit 0.3048 --origin 0 1.6 0"});
-    command.option("file", options->file, "Description of a CAVE that ParaView reads (.pvx)")
-        .required()
-        .type_name("FILE");
-    command.option("-o,--output,--out", options->out, "Configuration to write (default: print it)")
-        .type_name("FILE");
+    command.option("file FILE", options->file, "Description of a CAVE that ParaView reads (.pvx)")
+        .required();
+    command.option("-o,--output,--out FILE", options->out,
+                   "Configuration to write (default: print it)");
     command.flag("--force", options->force,
                  "Let --output replace any file but the .pvx file; without this option it replaces "
                  "only the same configuration");
     command
-        .option("--unit", options->pvx.meters_per_unit,
+        .option("--unit METERS", options->pvx.meters_per_unit,
                 "Length of the file's unit: 0.3048 for feet, 0.001 for millimeters")
         .positive()
-        .shows_default()
-        .type_name("METERS");
-    command
-        .option("--origin", options->origin,
-                "Position in the room of the file's origin; 0 1.6 0 if the file's corners are "
-                "relative to the eyes")
-        .values(3)
-        .type_name("METERS METERS METERS");
+        .shows_default();
+    command.option("--origin METERS METERS METERS", options->origin,
+                   "Position in the room of the file's origin; 0 1.6 0 if the file's corners are "
+                   "relative to the eyes");
     command.on_run([options] { import(*options); });
     Command schema = config.subcommand(
         "schema",

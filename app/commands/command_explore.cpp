@@ -10,7 +10,6 @@
 #include "app/telling.h"
 #include "stereo/image_file.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <memory>
@@ -24,9 +23,8 @@ namespace {
 void draw_room(const Config& config, const ExploreOptions& options) {
     if (!stereo::is_picture_name(*options.picture))
         throw UsageError(
-            fmt::format("--picture: expected a name that ends with .png, .tif, .jpg or "
-                        ".exr, got {}",
-                        *options.picture));
+            "--picture: expected a name that ends with .png, .tif, .jpg or .exr, got {}",
+            *options.picture);
     guard_outputs({{*options.picture, OutputKind::picture}}, {{*options.check_config}},
                   options.force);
     stereo::write_image(room_plan(config, problems_of(config)), *options.picture,

@@ -10,7 +10,6 @@
 #include "app/output/guarded_outputs.h"
 #include "app/telling.h"
 #include "app/text.h"
-#include "index/error.h"
 #include "index/export/simplified_mesh.h"
 #include "index/export/surface_export.h"
 #include "index/file/color_source.h"
@@ -71,10 +70,9 @@ Target target_of(const ExportArguments& arguments) {
     const index::SurfaceFormat* const by_extension =
         folder ? nullptr : index::surface_format_of(out);
     if (!by_name && !by_extension)
-        throw UsageError(fmt::format("--output: expected a name that ends in .ply, .stl, .obj, "
-                                     ".vtp, .glb, .usda or .csv, or a "
-                                     "folder and --format, got {}",
-                                     arguments.out));
+        throw UsageError("--output: expected a name that ends in .ply, .stl, .obj, .vtp, .glb, "
+                         ".usda or .csv, or a folder and --format, got {}",
+                         arguments.out);
     const index::SurfaceFormat& format = by_name ? *by_name : *by_extension;
     if (folder)
         return {&format, out / (arguments.file.stem().string() + std::string(format.extension))};
@@ -89,14 +87,13 @@ index::ValuesWish values_of(const ExportArguments& arguments, const index::Index
     const index::ColorSource source(file, number);
     const auto map = render::color_map_from_name(arguments.color_map);
     if (!map)
-        throw UsageError(fmt::format("--color-map: expected {}, got {}",
-                                     fmt::join(render::kColorMapNames, ", "), arguments.color_map));
+        throw UsageError("--color-map: expected {}, got {}",
+                         fmt::join(render::kColorMapNames, ", "), arguments.color_map);
     std::array<double, 2> range{source.array().low, source.array().high};
     if (!arguments.range.empty())
         range = {arguments.range[0], arguments.range[1]};
     if (!(range[0] < range[1]) && !arguments.range.empty())
-        throw UsageError(
-            fmt::format("--color-range: expected LOW below HIGH, got {} {}", range[0], range[1]));
+        throw UsageError("--color-range: expected LOW below HIGH, got {} {}", range[0], range[1]);
     return {.array = number, .color_of = [range, colors = render::color_map(*map)](float value) {
                 return color_at(colors, (value - range[0]) / (range[1] - range[0]));
             }};
@@ -106,12 +103,11 @@ index::ValuesWish values_of(const ExportArguments& arguments, const index::Index
 double factor_between(const std::string& from, const std::string& to) {
     const auto source = index::meters_in(from), wanted = index::meters_in(to);
     if (!wanted)
-        throw UsageError(
-            fmt::format("--length-unit: expected m, km, cm, mm, um, nm, in or ft, got {}", to));
+        throw UsageError("--length-unit: expected m, km, cm, mm, um, nm, in or ft, got {}", to);
     if (!source)
-        throw UsageError(fmt::format(
+        throw UsageError(
             "--length-unit {}: the data have {}; build the index with --length-unit", to,
-            from.empty() ? "no unit of length" : "the unit " + from + ", which is not a length"));
+            from.empty() ? "no unit of length" : "the unit " + from + ", which is not a length");
     return *source / *wanted;
 }
 
@@ -164,16 +160,15 @@ void check(const ExportArguments& arguments, const index::SurfaceFormat& format)
           Need{"--compress", arguments.compress, &index::SurfaceFormat::with_quantized},
           Need{"--rate", arguments.rate.has_value(), &index::SurfaceFormat::all_in_one}})
         if (need.given && !(format.*need.held))
-            throw UsageError(fmt::format("{}: is for {}, not {}", need.option,
-                                         fmt::join(format_names(need.held), ", "), format.name));
+            throw UsageError("{}: is for {}, not {}", need.option,
+                             fmt::join(format_names(need.held), ", "), format.name);
     for (const auto& [option, given] :
          {std::pair("--dust", arguments.cuts.dust > 0),
           std::pair("--crop", arguments.cuts.crop.has_value()),
           std::pair("--clip", !arguments.cuts.clip.empty()),
           std::pair("--simplify", arguments.cuts.simplify.has_value())})
         if (given && format.of_cells)
-            throw UsageError(
-                fmt::format("{}: is for triangles, and {} holds cells", option, format.name));
+            throw UsageError("{}: is for triangles, and {} holds cells", option, format.name);
     if (arguments.compress && !mesh_packing())
         throw UsageError("--compress: this build is without meshoptimizer (libmeshoptimizer-dev)");
 }
@@ -248,8 +243,8 @@ void keep_few_steps(const index::IndexFile& file) {
 
 void run_export(const ExportArguments& arguments) {
     if (arguments.isovalues.size() > index::kMostSurfaces)
-        throw UsageError(fmt::format("--isovalue: expected at most {} of them, got {}",
-                                     index::kMostSurfaces, arguments.isovalues.size()));
+        throw UsageError("--isovalue: expected at most {} of them, got {}", index::kMostSurfaces,
+                         arguments.isovalues.size());
     const Target target = target_of(arguments);
     check(arguments, *target.format);
     // Each value is looked at twice, soon after each other: to find cells and to place vertices.
@@ -292,99 +287,77 @@ void add_export(Command& program) {
         "export", "Write surfaces as files for other programs: meshes, or tables of cells.");
     command.examples({"isochron export run42.isochron --isovalue 100 --steps 0 -o surface.ply",
                       "isochron export run42.isochron --isovalue 100 -o surfaces/ --format vtp"});
-    command.option("file", arguments->file, "Index to take surfaces of")
-        .required()
-        .type_name("INDEX");
-    command
-        .option("--array", arguments->array,
-                "Array of the surfaces, where the index has several (default: its first)")
-        .type_name("NAME");
+    command.option("file INDEX", arguments->file, "Index to take surfaces of").required();
+    command.option("--array NAME", arguments->array,
+                   "Array of the surfaces, where the index has several (default: its first)");
     command
         .option(
-            "--isovalue", arguments->isovalues,
+            "--isovalue VALUE", arguments->isovalues,
             "Isovalue of the surface, in the unit of the values (after scaling). May be given up "
             "to 8 times, each time for another surface")
         .repeatable()
-        .required()
-        .type_name("VALUE");
-    command
-        .option("--steps,--step", arguments->steps,
-                "Steps to write, numbered from 0: `7`, `0:63` for 0 to 63, or `0:63:4` for every "
-                "fourth of them (default: all)")
-        .type_name("FIRST:LAST[:STRIDE]");
+        .required();
+    command.option(
+        "--steps,--step FIRST:LAST[:STRIDE]", arguments->steps,
+        "Steps to write, numbered from 0: `7`, `0:63` for 0 to 63, or `0:63:4` for every "
+        "fourth of them (default: all)");
     command
         .option(
-            "--fraction", arguments->fraction,
+            "--fraction FRACTION", arguments->fraction,
             "Write the surface between each step and the next: 32768 is halfway, as for `query`")
         .between(0u, 65535u)
-        .shows_default()
-        .type_name("FRACTION");
+        .shows_default();
     command
-        .option("-o,--output,--out", arguments->out,
+        .option("-o,--output,--out FILE", arguments->out,
                 "File to write; with several steps, the number of the step is added to its name, "
                 "surface_0007.ply. Or a folder, which is made if its name ends in a slash")
-        .required()
-        .type_name("FILE");
-    command.option("--format", arguments->format, "Format of the file (default: by its extension)")
-        .one_of(format_names())
-        .type_name("FORMAT");
-    const Option color_by =
-        command
-            .option("--color-by,--color", arguments->color_by,
-                    "Array whose values color the vertices. The values are written, too, where the "
-                    "format can hold them; stl and csv hold no colors")
-            .type_name("NAME");
-    command.option("--color-map", arguments->color_map, "Color map for these values")
-        .needs(color_by)
-        .shows_default()
-        .type_name("MAP");
+        .required();
     command
-        .option("--color-range,--range", arguments->range,
-                "Values at both ends of the color map (default: the range of the array)")
+        .option("--format FORMAT", arguments->format,
+                "Format of the file (default: by its extension)")
+        .one_of(format_names());
+    const Option color_by = command.option(
+        "--color-by,--color NAME", arguments->color_by,
+        "Array whose values color the vertices. The values are written, too, where the "
+        "format can hold them; stl and csv hold no colors");
+    command.option("--color-map MAP", arguments->color_map, "Color map for these values")
         .needs(color_by)
-        .values(2)
-        .type_name("LOW HIGH");
+        .shows_default();
+    command
+        .option("--color-range,--range LOW HIGH", arguments->range,
+                "Values at both ends of the color map (default: the range of the array)")
+        .needs(color_by);
     command
         .option(
-            "--precision", arguments->precision,
+            "--precision PRECISION", arguments->precision,
             "Precision of coordinates: single or double. Where single is too coarse, an origin is "
             "subtracted from them, and the file states this origin")
         .one_of({"single", "double"})
-        .shows_default()
-        .type_name("PRECISION");
+        .shows_default();
+    command.option(
+        "--length-unit,--unit UNIT", arguments->unit,
+        "Unit of the coordinates: m, km, cm, mm, um, nm, in or ft (default: the unit of the "
+        "data)");
     command
-        .option(
-            "--length-unit,--unit", arguments->unit,
-            "Unit of the coordinates: m, km, cm, mm, um, nm, in or ft (default: the unit of the "
-            "data)")
-        .type_name("UNIT");
-    command
-        .option("--rate", arguments->rate,
+        .option("--rate RATE", arguments->rate,
                 "Number of steps that glb-animation and usda play in a second (default: 10)")
-        .positive()
-        .type_name("RATE");
-    command
-        .option("--crop", arguments->cuts.crop,
-                "Write only triangles within a box, from one vertex of the grid to another; both "
-                "belong to the box")
-        .type_name("X0:X1,Y0:Y1,Z0:Z1");
-    command
-        .option("--clip", arguments->cuts.clip,
-                "Write only triangles on one side of a plane, which is given by a point and a "
-                "normal in the coordinates of the data. The normal points to the side that is cut "
-                "away")
-        .values(6)
-        .type_name("X Y Z NX NY NZ");
-    command
-        .option("--dust", arguments->cuts.dust,
-                "Leave out the connected pieces of the surface that have fewer active cells")
-        .type_name("CELLS");
-    command
-        .option("--simplify", arguments->cuts.simplify,
-                "Write fewer triangles, so that the surface moves by at most this distance: a "
-                "length in the unit of the file, or 0.5cells for half the shortest side of a cell. "
-                "How far the surface has moved is measured and printed")
-        .type_name("DISTANCE");
+        .positive();
+    command.option(
+        "--crop X0:X1,Y0:Y1,Z0:Z1", arguments->cuts.crop,
+        "Write only triangles within a box, from one vertex of the grid to another; both "
+        "belong to the box");
+    command.option(
+        "--clip X Y Z NX NY NZ", arguments->cuts.clip,
+        "Write only triangles on one side of a plane, which is given by a point and a "
+        "normal in the coordinates of the data. The normal points to the side that is cut "
+        "away");
+    command.option("--dust CELLS", arguments->cuts.dust,
+                   "Leave out the connected pieces of the surface that have fewer active cells");
+    command.option(
+        "--simplify DISTANCE", arguments->cuts.simplify,
+        "Write fewer triangles, so that the surface moves by at most this distance: a "
+        "length in the unit of the file, or 0.5cells for half the shortest side of a cell. "
+        "How far the surface has moved is measured and printed");
     command.flag(
         "--quantize", arguments->quantize,
         "In glTF, store coordinates in 16 bits and normals in 8 (KHR_mesh_quantization). A "

@@ -5,7 +5,6 @@
 #include "app/telling.h"
 #include "index/system/new_file.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -28,9 +27,8 @@ void write_figure(const FigureOptions& options) {
     constexpr std::array kFormats{".pdf", ".png", ".tif", ".tiff"};
     const fs::path out(options.out);
     if (std::ranges::find(kFormats, out.extension().string()) == kFormats.end())
-        throw UsageError(
-            fmt::format("--output: expected a name that ends in .pdf, .png, .tif or .tiff, got {}",
-                        options.out));
+        throw UsageError("--output: expected a name that ends in .pdf, .png, .tif or .tiff, got {}",
+                         options.out);
     const FigureFile figure = read_figure(options.file);
     std::vector<fs::path> data;
     Reads reads{{options.file}, nullptr};
@@ -44,9 +42,7 @@ void write_figure(const FigureOptions& options) {
     guard_outputs({{out, OutputKind::picture}}, reads, options.force);
     const MadeFigure made =
         make_figure(figure, options.file, data, *stereo::context_kind_from_name(options.context));
-    index::NewFile file(out);
-    file.write_at(0, figure_bytes(made, figure.dpi, out));
-    file.commit();
+    index::write_file(out, figure_bytes(made, figure.dpi, out));
     tell_result({{"file", options.out},
                  {"panels", figure.panels.size()},
                  {"width_mm", made.page.size.x},
@@ -66,18 +62,16 @@ void add_figure(Command& program) {
     command.examples({"isochron figure figure.toml -o figure.pdf",
                       "isochron figure figure.toml -o figure.tiff"});
     command
-        .option("file", options->file, "What the figure shows: a TOML file (docs/guide/figures.md)")
-        .required()
-        .type_name("FILE");
+        .option("file FILE", options->file,
+                "What the figure shows: a TOML file (docs/guide/figures.md)")
+        .required();
     command
-        .option("-o,--output", options->out,
+        .option("-o,--output FILE", options->out,
                 "Figure to write: .pdf, with its words as text, .png or .tiff")
-        .required()
-        .type_name("FILE");
-    command.option("--context", options->context, "OpenGL context to draw with")
+        .required();
+    command.option("--context CONTEXT", options->context, "OpenGL context to draw with")
         .one_of({"egl", "osmesa"})
-        .shows_default()
-        .type_name("CONTEXT");
+        .shows_default();
     command.flag("--force", options->force,
                  "Let --output replace any file but one that is read; without this option it "
                  "replaces only figures and pictures of this program");

@@ -4,13 +4,10 @@
 #include "index/error.h"
 #include "index/system/module.h"
 
-#include <fmt/format.h>
-
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -29,7 +26,7 @@ const char* const kProgramOfSeries = "isochron-generate";
         arguments.push_back(word.data());
     arguments.push_back(nullptr);
     ::execv(file.c_str(), arguments.data());
-    throw index::Error(fmt::format("{}: cannot be started: {}", file, std::strerror(errno)));
+    throw index::Error("{}: cannot be started: {}", file, std::strerror(errno));
 }
 
 } // namespace

@@ -50,9 +50,9 @@ void run_info(const InfoArguments& given) {
         (!index::is_link(first) && std::filesystem::path(first).extension() != ".isochron" &&
          !(std::filesystem::exists(first, ignored) && index::is_index(first)));
     if (is_data && given.tree)
-        throw UsageError(fmt::format("--tree: {} is not an index", first));
+        throw UsageError("--tree: {} is not an index", first);
     if (is_data && given.measure_time)
-        throw UsageError(fmt::format("--measure-time: {} is not an index", first));
+        throw UsageError("--measure-time: {} is not an index", first);
     if (is_data)
         return describe_sources(arguments);
     const auto file = open_array(first, arguments.read.array);
@@ -70,9 +70,8 @@ void add_info(Command& program) {
     Command command = program.subcommand(
         "info", "Describe an index, or volume files as `build` would read them.");
     command.examples({"isochron info 'run42/*.vti'", "isochron info run42.isochron --json"});
-    command.option("files", arguments->sources.files, "Index, or files that `build` accepts")
-        .required()
-        .type_name("FILE");
+    command.option("files FILE", arguments->sources.files, "Index, or files that `build` accepts")
+        .required();
     command.flag("--tree", arguments->tree,
                  "Also print how many cells each node of the paper's tree stores, if the index has "
                  "this tree");

@@ -7,13 +7,11 @@
 #include "app/version.h"
 #include "index/system/new_file.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,7 +43,7 @@ void add_help(Command& program) {
     auto words = std::make_shared<std::vector<std::string>>();
     Command command = program.subcommand("help", "Print the help of the program, or of a command.");
     command.examples({"isochron help", "isochron help generate sphere"});
-    command.option("command", *words, "Command, and the one below it, if any").type_name("COMMAND");
+    command.option("command COMMAND", *words, "Command, and the one below it, if any");
     command.on_run([words, program] {
         const std::string help = program.help(*words);
         CommandReference reference = program.reference();
@@ -69,13 +67,9 @@ void add_manual(Command& program) {
         "manual", "Write the manual pages of the program and of all commands, for man(1).");
     command.examples(
         {"isochron manual -o ~/.local/share/man/man1", "isochron manual -o pages --force"});
-    command
-        .option("-o,--output", options->output,
-                "Folder for the pages; it is made where it is missing")
-        .type_name("FOLDER");
-    command.option("folder", options->folder, "Former place of the folder")
-        .type_name("FOLDER")
-        .hidden();
+    command.option("-o,--output FOLDER", options->output,
+                   "Folder for the pages; it is made where it is missing");
+    command.option("folder FOLDER", options->folder, "Former place of the folder").hidden();
     command.flag("--force", options->force,
                  "Replace any files that have the names of pages; without this option only manual "
                  "pages are replaced");
@@ -92,9 +86,7 @@ void add_manual(Command& program) {
         std::filesystem::create_directories(options->output);
         nlohmann::ordered_json files = nlohmann::ordered_json::array();
         for (const ManualPage& page : pages) {
-            index::NewFile file(options->output / page.file);
-            file.write_at(0, std::as_bytes(std::span(page.text)));
-            file.commit();
+            index::write_file(options->output / page.file, page.text);
             files.push_back((options->output / page.file).string());
         }
         tell_result({{"files", files}});
@@ -107,10 +99,9 @@ void add_completion(Command& program) {
     Command command = program.subcommand(
         "completion", "Print a script with which a shell completes commands and options.");
     command.examples({"source <(isochron completion bash)", "isochron completion zsh > _isochron"});
-    command.option("shell", *shell, "Shell that the script is for")
+    command.option("shell SHELL", *shell, "Shell that the script is for")
         .required()
-        .one_of(completed_shells())
-        .type_name("SHELL");
+        .one_of(completed_shells());
     command.footer(
         "The first example completes in one session of bash. An installed program brings "
         "these scripts along.");

@@ -9,7 +9,6 @@
 #include "app/output/guarded_outputs.h"
 #include "app/telling.h"
 #include "app/text.h"
-#include "index/error.h"
 #include "index/measure/measures.h"
 #include "index/system/new_file.h"
 #include "index/volume/instant_text.h"
@@ -53,9 +52,9 @@ std::vector<std::size_t> chosen(const MeasureArguments& arguments) {
         const bool there =
             index::is_measured(all[i], arguments.on_surface.has_value(), !arguments.from.empty());
         if (named && !there)
-            throw UsageError(fmt::format(
-                "--measure {}: needs {}", all[i].name,
-                all[i].unit == index::MeasureUnit::value ? "--on-surface ARRAY" : "--from X Y Z"));
+            throw UsageError("--measure {}: needs {}", all[i].name,
+                             all[i].unit == index::MeasureUnit::value ? "--on-surface ARRAY"
+                                                                      : "--from X Y Z");
         if (named || (arguments.measures.empty() && there))
             numbers.push_back(i);
     }
@@ -213,9 +212,7 @@ void run_measure(const MeasureArguments& arguments) {
                                           : as_table(made));
     }
     const std::string text = csv_of(made.rows, made.columns);
-    index::NewFile written(arguments.out);
-    written.write_at(0, std::as_bytes(std::span(text)));
-    written.commit();
+    index::write_file(arguments.out, text);
     tell_result({{"file", arguments.out.string()}, {"rows", made.rows.size()}});
     print_report("wrote {}: {} rows\n", arguments.out.string(), made.rows.size());
 }
@@ -229,30 +226,23 @@ void add_measure(Command& program) {
                    "pieces and more.");
     command.examples({"isochron measure run42.isochron --isovalue 100",
                       "isochron measure run42.isochron --isovalue 100 --steps 2 --pieces"});
-    command.option("file", arguments->file, "Index whose surfaces are measured")
-        .required()
-        .type_name("INDEX");
+    command.option("file INDEX", arguments->file, "Index whose surfaces are measured").required();
+    command.option("--array NAME", arguments->array,
+                   "Array of the surfaces, where the index has several (default: its first)");
     command
-        .option("--array", arguments->array,
-                "Array of the surfaces, where the index has several (default: its first)")
-        .type_name("NAME");
-    command
-        .option("--isovalue", arguments->isovalues,
+        .option("--isovalue VALUE", arguments->isovalues,
                 "Isovalue, in the unit of the values (after scaling); again for another surface")
         .repeatable()
-        .required()
-        .type_name("VALUE");
+        .required();
+    command.option(
+        "--steps,--step STEPS", arguments->steps,
+        "Steps to measure, counted from 0: one step, or FIRST:LAST[:STRIDE] (default: all)");
     command
-        .option("--steps,--step", arguments->steps,
-                "Steps to measure, counted from 0: one step, or FIRST:LAST[:STRIDE] (default: all)")
-        .type_name("STEPS");
-    command
-        .option("--fraction", arguments->fraction,
+        .option("--fraction FRACTION", arguments->fraction,
                 "Measure between each step and the next: 0 is the step, 32768 is halfway, 65536 "
                 "would be the next step")
         .between(0u, 65535u)
-        .shows_default()
-        .type_name("FRACTION");
+        .shows_default();
     std::vector<std::string> names;
     std::string definitions;
     for (const index::Measure& measure : index::measures()) {
@@ -260,48 +250,36 @@ void add_measure(Command& program) {
         definitions += fmt::format("{}: {}. ", measure.name, measure.definition);
     }
     command
-        .option("--measure", arguments->measures,
+        .option("--measure MEASURE", arguments->measures,
                 "What to measure; again for another one (default: all)")
         .repeatable()
-        .one_of(names)
-        .type_name("MEASURE");
-    command
-        .option("--on-surface", arguments->on_surface,
-                "Another array of the index, whose values on the surface are measured")
-        .type_name("NAME");
-    command
-        .option("--crop", arguments->crop,
-                "Measure only the cells within a box, from one vertex of the grid to another; the "
-                "surface ends at its faces")
-        .type_name("X0:X1,Y0:Y1,Z0:Z1");
-    command
-        .option("--clip", arguments->clip,
-                "Measure only what lies on one side of a plane, which is given by a point and a "
-                "normal in the coordinates of the data. The normal points to the side that is cut "
-                "away. The surface is cut without a cap; volumes are those of that side, exactly")
-        .values(6)
-        .type_name("X Y Z NX NY NZ");
-    command
-        .option("--from", arguments->from,
-                "Measure the distance from this place, in the coordinates of the data, to the "
-                "nearest point of the surface")
-        .values(3)
-        .type_name("X Y Z");
-    command
-        .option(
-            "--dust", arguments->dust,
-            "Measure without the connected pieces that have fewer active cells. What these enclose "
-            "is taken from the volume")
-        .type_name("CELLS");
+        .one_of(names);
+    command.option("--on-surface NAME", arguments->on_surface,
+                   "Another array of the index, whose values on the surface are measured");
+    command.option(
+        "--crop X0:X1,Y0:Y1,Z0:Z1", arguments->crop,
+        "Measure only the cells within a box, from one vertex of the grid to another; the "
+        "surface ends at its faces");
+    command.option(
+        "--clip X Y Z NX NY NZ", arguments->clip,
+        "Measure only what lies on one side of a plane, which is given by a point and a "
+        "normal in the coordinates of the data. The normal points to the side that is cut "
+        "away. The surface is cut without a cap; volumes are those of that side, exactly");
+    command.option("--from X Y Z", arguments->from,
+                   "Measure the distance from this place, in the coordinates of the data, to the "
+                   "nearest point of the surface");
+    command.option(
+        "--dust CELLS", arguments->dust,
+        "Measure without the connected pieces that have fewer active cells. What these enclose "
+        "is taken from the volume");
     command.flag(
         "--pieces", arguments->pieces,
         "Print a row for each connected piece of a surface, the largest area first, with its "
         "area, the volume that it encloses (negative around lower values), its Euler number, "
         "its centroid and its extent");
     command.flag("--csv", arguments->csv, "Print the table as CSV");
-    command
-        .option("-o,--output,--out", arguments->out, "CSV file to write (default: print a table)")
-        .type_name("FILE");
+    command.option("-o,--output,--out FILE", arguments->out,
+                   "CSV file to write (default: print a table)");
     command.flag("--force", arguments->force, "Replace a file that exists");
     command.footer(
         "The measures. " + definitions +

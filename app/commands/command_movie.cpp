@@ -160,9 +160,8 @@ void check_output(const MovieOptions& options) {
     if (is_movie_folder(out))
         return;
     if (std::ranges::find(kSuffixes, out.extension().string()) == kSuffixes.end())
-        throw UsageError(
-            fmt::format("--output: expected a name that ends in {}, or a folder, got {}",
-                        fmt::join(kSuffixes, ", "), options.out));
+        throw UsageError("--output: expected a name that ends in {}, or a folder, got {}",
+                         fmt::join(kSuffixes, ", "), options.out);
     index::NewFile{out};
 }
 
@@ -171,10 +170,10 @@ void check_source(const MovieOptions& options, bool of_index) {
     const SeriesMovie& series = options.series;
     if (!of_index && (series.isovalue || !series.steps.empty() || series.between || series.turn ||
                       !series.film.empty() || !series.keys.empty()))
-        throw UsageError(fmt::format(
+        throw UsageError(
             "{}: a recording has its own view, isovalues, steps and moments between them; "
             "--isovalue, --steps, --between, --keys, --film and --turn go with an index",
-            options.recording));
+            options.recording);
     if (!series.keys.empty() && (series.turns() || !series.film.empty() || !series.steps.empty()))
         throw UsageError("--keys: the keys say where to look and which steps pass; --film, --turn "
                          "and --steps go without them");
@@ -193,16 +192,16 @@ void check_source(const MovieOptions& options, bool of_index) {
     if (options.panorama && options.size.size() == 2 &&
         (options.size[0] != options.size[1] || options.size[0] % 2 != 0 ||
          options.size[0] < PanoramaPlan::kNarrowest))
-        throw UsageError(fmt::format("--size: a panorama of both eyes is a square; expected the "
-                                     "same even number twice, from {} on, got {} {}",
-                                     PanoramaPlan::kNarrowest, options.size[0], options.size[1]));
+        throw UsageError("--size: a panorama of both eyes is a square; expected the same even "
+                         "number twice, from {} on, got {} {}",
+                         PanoramaPlan::kNarrowest, options.size[0], options.size[1]);
     if (options.panorama && writes_recording(options))
         throw UsageError("--panorama: a recording has no pictures; give the option to the movie "
                          "that is made of it");
     if (!of_index && writes_recording(options))
-        throw UsageError(fmt::format("{}: it is a recording already; a recording is made of an "
-                                     "index: isochron movie INDEX --turn -o film.jsonl",
-                                     options.recording));
+        throw UsageError("{}: it is a recording already; a recording is made of an index: isochron "
+                         "movie INDEX --turn -o film.jsonl",
+                         options.recording);
     if (of_index && options.data)
         throw UsageError("--data goes with a recording; an index is the data itself");
 }
@@ -514,68 +513,54 @@ void add_movie(Command& program) {
                       "its steps, seen as `explore` shows them first. It lasts 10 s, or longer "
                       "where there are more steps than frames in 10 s");
     command
-        .option("-o,--output,--out", options->out,
+        .option("-o,--output,--out FILE", options->out,
                 "Movie to write: .mp4, .mkv or .mov (H.264), .webm (VP9), or .gif; or a folder for "
                 "its frames (.png); or .jsonl, the film of an index as a recording, which `replay` "
                 "plays")
-        .required()
-        .type_name("FILE");
+        .required();
+    command.option(
+        "--isovalue VALUE", options->series.isovalue,
+        "With an index: isovalue of the surface (default: the one that `explore` shows first)");
+    command.option("--steps,--step FIRST:LAST[:STRIDE]", options->series.steps,
+                   "With an index: steps to show, numbered from 0: `0:63` for 0 to 63, or `0:63:4` "
+                   "for every fourth of them (default: all)");
     command
         .option(
-            "--isovalue", options->series.isovalue,
-            "With an index: isovalue of the surface (default: the one that `explore` shows first)")
-        .type_name("VALUE");
-    command
-        .option("--steps,--step", options->series.steps,
-                "With an index: steps to show, numbered from 0: `0:63` for 0 to 63, or `0:63:4` "
-                "for every fourth of them (default: all)")
-        .type_name("FIRST:LAST[:STRIDE]");
-    command
-        .option(
-            "--between", options->series.between,
+            "--between MODE", options->series.between,
             "With an index: what to show between two steps: `hold` shows the step before, `blend` "
             "a blend of both (default: what `isochron info` advises)")
-        .one_of(interaction::all_names<interaction::BetweenSteps>())
-        .type_name("MODE");
-    command
-        .option("--keys", options->series.keys,
-                "With an index: file of the key frames that the film goes through "
-                "(docs/FORMATS.md), or a session that has "
-                "keys (Ctrl + M in `explore`)")
-        .type_name("FILE");
+        .one_of(interaction::all_names<interaction::BetweenSteps>());
+    command.option("--keys FILE", options->series.keys,
+                   "With an index: file of the key frames that the film goes through "
+                   "(docs/FORMATS.md), or a session that has "
+                   "keys (Ctrl + M in `explore`)");
     command
         .option(
-            "--film", options->series.film,
+            "--film FILM", options->series.film,
             "With an index: the kind of film, `time` (the steps pass), `turn` (one turn about the "
             "data's up axis while the first of the steps stands) or `both` (one turn while the "
             "steps pass) (default: time)")
-        .one_of({"time", "turn", "both"})
-        .type_name("FILM");
+        .one_of({"time", "turn", "both"});
     command.flag("--turn", options->series.turn,
                  "One turn while time plays, as `--film both` makes it. With `--steps 5`, step 5 "
                  "stands still during the turn");
     command
-        .option("--length", options->series.length,
+        .option("--length SECONDS", options->series.length,
                 "With an index: length of the turn (default: 10)")
-        .between(0.1, interaction::kLongestFilm)
-        .type_name("SECONDS");
+        .between(0.1, interaction::kLongestFilm);
     command.flag("--titles", options->series.titles,
                  "Show the name and the text of each key at the bottom while the film rests there: "
                  "with --keys, or with the recording of a film or story whose keys have texts");
     command.flag("--panorama", options->panorama,
                  "All directions for both eyes: equirectangular, the left eye's picture above the "
                  "right eye's, in a square of 4096 pixels, or as --size says");
-    command.option("--rate", options->rate, "Frames per second")
-        .positive()
-        .shows_default()
-        .type_name("RATE");
+    command.option("--rate RATE", options->rate, "Frames per second").positive().shows_default();
     command
-        .option("--eyes", options->eyes,
+        .option("--eyes EYES", options->eyes,
                 "`window` makes one movie of what the window shows; `each` makes a movie for each "
                 "eye of each viewport and adds their names to the name of --output")
         .one_of({"window", "each"})
-        .shows_default()
-        .type_name("EYES");
+        .shows_default();
     command.flag("--force", options->force, "Replace a movie that exists");
     command.flag(
         "--background", options->background,

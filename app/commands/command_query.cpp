@@ -93,9 +93,8 @@ std::optional<index::SearchMethod> method_of(const QueryArguments& arguments,
         if (index::kSearchMethodNames[i] != arguments.method)
             continue;
         if (!index::can_search(file, method))
-            throw index::Error(
-                fmt::format("{}: has no search structure {}; isochron info lists those it has",
-                            arguments.file.string(), arguments.method));
+            throw index::Error("{}: has no search structure {}; isochron info lists those it has",
+                               arguments.file.string(), arguments.method);
         return method;
     }
     return std::nullopt;
@@ -181,8 +180,8 @@ void run_query(const QueryArguments& arguments) {
     const index::Instant at = index::instant_named(*file, arguments.step, arguments.fraction);
     warn_beyond(arguments.isovalue, *file);
     if (arguments.level >= file->detail_levels())
-        throw index::Error(fmt::format("{}: level {}, expected 0 to {}", arguments.file.string(),
-                                       arguments.level, file->detail_levels() - 1));
+        throw index::Error("{}: level {}, expected 0 to {}", arguments.file.string(),
+                           arguments.level, file->detail_levels() - 1);
     if (arguments.level > 0 && !arguments.method.empty())
         throw UsageError("--method is for level 0 only");
     if (!arguments.ids.empty())
@@ -205,54 +204,43 @@ void add_query(Command& program) {
                  "corners have min < isovalue <= max.");
     command.examples({"isochron query run42.isochron --isovalue 100 --step 0",
                       "isochron query run42.isochron --isovalue 100 --step 0 -o cells.bin --json"});
-    command.option("file", arguments->file, "Index to search").required().type_name("INDEX");
+    command.option("file INDEX", arguments->file, "Index to search").required();
+    command.option("--array NAME", arguments->array,
+                   "Array to search, where the index has several (default: its first)");
     command
-        .option("--array", arguments->array,
-                "Array to search, where the index has several (default: its first)")
-        .type_name("NAME");
-    command
-        .option("--isovalue", arguments->isovalue,
+        .option("--isovalue VALUE", arguments->isovalue,
                 "Isovalue, in the unit of the values (after scaling)")
-        .required()
-        .type_name("VALUE");
-    command.option("--step", arguments->step, "Step to search, from 0")
-        .required()
-        .type_name("STEP");
+        .required();
+    command.option("--step STEP", arguments->step, "Step to search, from 0").required();
     command
-        .option("--fraction", arguments->fraction,
+        .option("--fraction FRACTION", arguments->fraction,
                 "Search between this step and the next, where values are blended linearly and "
                 "compared exactly: 0 is this step, 32768 is halfway, 65536 would be the next step")
         .between(0u, 65535u)
-        .shows_default()
-        .type_name("FRACTION");
-    command
-        .option("-o,--output,--ids", arguments->ids,
-                "Write the numbers of the active cells, ascending, to this file: u32 (u64 where "
-                "there are 2^32 cells or more), little-endian; cell x y z has the number "
-                "(z * (ny - 1) + y) * (nx - 1) + x")
-        .type_name("FILE");
+        .shows_default();
+    command.option("-o,--output,--ids FILE", arguments->ids,
+                   "Write the numbers of the active cells, ascending, to this file: u32 (u64 where "
+                   "there are 2^32 cells or more), little-endian; cell x y z has the number "
+                   "(z * (ny - 1) + y) * (nx - 1) + x");
     command.flag("--force", arguments->force,
                  "Let --output replace any file but one that is read; without this option it "
                  "replaces only numbers of cells");
     command
-        .option("--repeat", arguments->repeats,
+        .option("--repeat COUNT", arguments->repeats,
                 "Number of times that the search is repeated; the median of the times is printed")
         .between(0u, 1000u)
-        .shows_default()
-        .type_name("COUNT");
+        .shows_default();
     command
-        .option("--level", arguments->level,
+        .option("--level LEVEL", arguments->level,
                 "Level of detail to search; 0 is the finest, and `isochron info` lists them. Cells "
                 "are numbered in the grid of the level")
-        .shows_default()
-        .type_name("LEVEL");
+        .shows_default();
     command
-        .option("--method", arguments->method,
+        .option("--method METHOD", arguments->method,
                 "Search structure to use (default: the fastest one of the index)")
         .one_of(std::vector<std::string>(index::kSearchMethodNames.begin(),
                                          index::kSearchMethodNames.end()),
-                {"cells"})
-        .type_name("METHOD");
+                {"cells"});
     command.footer("The time of a search includes the exact test of each cell. Shading is the "
                    "computation of positions and normals. The first search reads the file; the "
                    "repeated ones find it in memory.");

@@ -301,31 +301,24 @@ void add_replay(Command& program) {
     command.examples({"isochron replay walk.jsonl --stamps -o pictures",
                       "isochron replay walk.jsonl --every 30 --caption -o series"});
     add_replay_source(command, *options);
-    command
-        .option("-o,--output,--out", options->out,
-                "Folder for the pictures; it is made where it is missing")
-        .type_name("FOLDER");
-    command.option("--every", options->every, "Write a picture of every Nth frame")
-        .positive()
-        .type_name("COUNT");
+    command.option("-o,--output,--out FOLDER", options->out,
+                   "Folder for the pictures; it is made where it is missing");
+    command.option("--every COUNT", options->every, "Write a picture of every Nth frame")
+        .positive();
     command.flag("--stamps", options->stamps, "Write a picture at every stamp");
     command
-        .option("--eyes", options->eyes,
+        .option("--eyes EYES", options->eyes,
                 "`window` writes one picture of what the window shows; `each` writes a picture for "
                 "each eye of each viewport")
         .one_of({"window", "each"})
-        .shows_default()
-        .type_name("EYES");
+        .shows_default();
     command
-        .option("--format", options->format,
+        .option("--format FORMAT", options->format,
                 "Format of the pictures: png, exr (linear light), tiff, or jpg (with losses)")
         .one_of({"png", "exr", "tiff", "jpg"})
-        .shows_default()
-        .type_name("FORMAT");
-    command
-        .option("--report", options->report,
-                "Write the times and the state of every frame to this JSON file")
-        .type_name("FILE");
+        .shows_default();
+    command.option("--report FILE", options->report,
+                   "Write the times and the state of every frame to this JSON file");
     command.flag(
         "--force", options->force,
         "Let --output and --report replace any files but those that are read; without this "

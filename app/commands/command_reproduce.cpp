@@ -42,14 +42,13 @@ struct ReproduceOptions {
 PictureNote note_in(const fs::path& picture) {
     const std::string text = note_text_in(picture);
     if (text.empty())
-        throw interaction::Error(fmt::format("{}: it has no note of what it shows: isochron has "
-                                             "not written it, or another program has "
-                                             "saved it again",
-                                             picture.string()));
+        throw interaction::Error("{}: it has no note of what it shows: isochron has not written "
+                                 "it, or another program has saved it again",
+                                 picture.string());
     try {
         return note_from(text);
     } catch (const interaction::Error& error) {
-        throw interaction::Error(fmt::format("{}: {}", picture.string(), error.what()));
+        throw interaction::Error("{}: {}", picture.string(), error.what());
     }
 }
 
@@ -63,9 +62,9 @@ fs::path data_path(const ReproduceOptions& options, const PictureNote& note) {
          {fs::path(options.picture).parent_path() / note.data, fs::path(note.data)})
         if (!note.data.empty() && fs::is_regular_file(path, ignored))
             return path;
-    throw interaction::Error(fmt::format("{}: it shows {} (hash {}), which is not in the picture's "
-                                         "folder; give its path with --data",
-                                         options.picture, note.data, note.data_hash));
+    throw interaction::Error("{}: it shows {} (hash {}), which is not in the picture's folder; "
+                             "give its path with --data",
+                             options.picture, note.data, note.data_hash);
 }
 
 Config config_for(const ReproduceOptions& options, const PictureNote& note) {
@@ -86,8 +85,8 @@ Config config_for(const ReproduceOptions& options, const PictureNote& note) {
         window.fullscreen = false;
     if (note.part.shows != "room") {
         if (note.part.window >= windows.size())
-            throw interaction::Error(fmt::format("{}: it shows window {} of {}", options.picture,
-                                                 note.part.window + 1, windows.size()));
+            throw interaction::Error("{}: it shows window {} of {}", options.picture,
+                                     note.part.window + 1, windows.size());
         windows[note.part.window].size = note.size;
     }
     return config;
@@ -133,10 +132,10 @@ MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
         print_note("{}", other);
     if (data_hash_of(*file) != note.data_hash) {
         if (!options.any_data)
-            throw interaction::Error(fmt::format(
-                "{}: made of other data: expected hash {}, {} has {} (--any-data draws them and "
-                "counts the pixels that differ)",
-                options.picture, note.data_hash, data.string(), data_hash_of(*file)));
+            throw interaction::Error("{}: made of other data: expected hash {}, {} has {} "
+                                     "(--any-data draws them and counts the pixels that differ)",
+                                     options.picture, note.data_hash, data.string(),
+                                     data_hash_of(*file));
         made.differs.push_back(fmt::format("data: hash {}, {} has {}", note.data_hash,
                                            data.string(), data_hash_of(*file)));
     }
@@ -145,8 +144,8 @@ MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
     for (const std::string& refused : state.refusals(note.state, file->info().steps())) {
         if (!options.any_data)
             throw interaction::Error(
-                fmt::format("{}: its state does not fit the data: {} (--any-data goes on without)",
-                            options.picture, refused));
+                "{}: its state does not fit the data: {} (--any-data goes on without)",
+                options.picture, refused);
         made.differs.push_back("state: " + refused);
     }
     state.resume(note.state, file->info().steps());
@@ -171,9 +170,8 @@ MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
                   }
               });
     if (made.image.rgba.empty())
-        throw interaction::Error(
-            fmt::format("{}: it shows a {} that its configuration does not have", options.picture,
-                        note.part.shows));
+        throw interaction::Error("{}: it shows a {} that its configuration does not have",
+                                 options.picture, note.part.shows);
     return made;
 }
 
@@ -243,11 +241,10 @@ bool reproduced_figure(const ReproduceOptions& options) {
         const auto file = open_index_to_show(data.back());
         if (i < record.hashes.size() && data_hash_of(*file) != record.hashes[i] &&
             !options.any_data)
-            throw interaction::Error(fmt::format("{}: panel {} was made of other data: expected "
-                                                 "hash {}, {} has {} (--any-data draws "
-                                                 "them)",
-                                                 options.picture, i + 1, record.hashes[i],
-                                                 data.back().string(), data_hash_of(*file)));
+            throw interaction::Error("{}: panel {} was made of other data: expected hash {}, {} "
+                                     "has {} (--any-data draws them)",
+                                     options.picture, i + 1, record.hashes[i], data.back().string(),
+                                     data_hash_of(*file));
     }
     print_report("{}: a figure of {} panel{}, by {}\n", options.picture, figure.panels.size(),
                  figure.panels.size() == 1 ? "" : "s", record.program);
@@ -260,9 +257,7 @@ bool reproduced_figure(const ReproduceOptions& options) {
     if (options.out) {
         guard_outputs({{*options.out, OutputKind::picture}}, {{options.picture}, nullptr},
                       options.force);
-        index::NewFile file(*options.out);
-        file.write_at(0, figure_bytes(made, figure.dpi, *options.out));
-        file.commit();
+        index::write_file(*options.out, figure_bytes(made, figure.dpi, *options.out));
         print_report("wrote {}\n", *options.out);
     }
     const bool equal = std::ranges::equal(std::as_bytes(std::span(there)), bytes);
@@ -285,7 +280,7 @@ void reproduce(const ReproduceOptions& options) {
     const PictureNote note = note_in(options.picture);
     describe(options.picture, note);
     if (note.movie)
-        throw interaction::Error(fmt::format(
+        throw interaction::Error(
             "{}: a movie is made again by `isochron movie {} --rate {} -o MOVIE{}{}`, of the {}",
             options.picture, note.movie->recording.empty() ? "INDEX" : "RECORDING",
             note.movie->rate,
@@ -295,20 +290,19 @@ void reproduce(const ReproduceOptions& options) {
             options.any_data ? " --any-data" : "",
             note.movie->recording.empty()
                 ? fmt::format("data with hash {}", note.data_hash)
-                : fmt::format("recording with hash {}", note.movie->recording)));
+                : fmt::format("recording with hash {}", note.movie->recording));
     for (const auto& [shows, words] : {std::pair("headset", "a headset's mirror"),
                                        std::pair("panorama", "a panorama of many views")})
         if (note.part.shows == shows)
-            throw interaction::Error(
-                fmt::format("{}: it shows {}, which is not made again", options.picture, words));
+            throw interaction::Error("{}: it shows {}, which is not made again", options.picture,
+                                     words);
     MadePicture made = make(options, note);
     const auto bytes = stereo::encoded_image(made.image, options.picture, text_of(note));
     constexpr std::uint64_t kLargest = std::uint64_t{1} << 34;
     const std::string there = index::read_text(options.picture, kLargest);
     if (options.out) {
-        index::NewFile file(*options.out);
-        file.write_at(0, stereo::encoded_image(made.image, *options.out, text_of(note)));
-        file.commit();
+        index::write_file(*options.out,
+                          stereo::encoded_image(made.image, *options.out, text_of(note)));
         tell_result({{"output", *options.out}});
         print_report("wrote {}\n", *options.out);
     }
@@ -343,23 +337,19 @@ void add_reproduce(Command& program) {
         {"isochron reproduce pictures/stamp_00012_stamp-1.png",
          "isochron reproduce pictures/stamp_00012_stamp-1.png --data run42.isochron -o again.png"});
     command
-        .option("picture", options->picture,
+        .option("picture FILE", options->picture,
                 "Picture (.png, .exr, .tiff or .jpg) or figure (.pdf, .png or .tiff) that isochron "
                 "wrote")
-        .required()
-        .type_name("FILE");
-    command
-        .option("--data", options->data,
-                "Index to draw (default: the one that the picture names, beside the picture or in "
-                "the working directory)")
-        .type_name("INDEX");
-    command
-        .option("--model", options->models,
-                "Let the picture show this file of triangles, though it lies outside of the folders "
-                "of picture and data; may be given several times")
-        .type_name("FILE");
-    command.option("-o,--output,--out", options->out, "Save the new picture in this file")
-        .type_name("FILE");
+        .required();
+    command.option(
+        "--data INDEX", options->data,
+        "Index to draw (default: the one that the picture names, beside the picture or in "
+        "the working directory)");
+    command.option(
+        "--model FILE", options->models,
+        "Let the picture show this file of triangles, though it lies outside of the folders "
+        "of picture and data; may be given several times");
+    command.option("-o,--output,--out FILE", options->out, "Save the new picture in this file");
     command.flag("--force", options->force,
                  "Let --output replace any file but one that is read; without this option it "
                  "replaces only pictures of this program");
@@ -367,10 +357,9 @@ void add_reproduce(Command& program) {
         "--any-data", options->any_data,
         "Draw the data even if they differ from those of the picture, as their hashes tell, "
         "and count the pixels that differ");
-    command.option("--context", options->context, "OpenGL context to draw with")
+    command.option("--context CONTEXT", options->context, "OpenGL context to draw with")
         .one_of({"egl", "osmesa"})
-        .shows_default()
-        .type_name("CONTEXT");
+        .shows_default();
     command.footer("The command prints that the pictures are equal, or what differs: the data, the "
                    "program, the driver, and how many pixels.");
     command.exit_status(0, "equal pictures");

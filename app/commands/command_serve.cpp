@@ -65,23 +65,21 @@ bool is_own(const fs::path& folder) {
 /// Refuses what the page would refuse, and what is not to be shown to others.
 void check_story(const fs::path& story) {
     if (!is_story_name(story.string()))
-        throw UsageError(
-            fmt::format("--story {}: expected a file NAME{}", story.string(), kStoryEnding));
+        throw UsageError("--story {}: expected a file NAME{}", story.string(), kStoryEnding);
     const std::string text = index::read_text(story, kLargestStory);
     if (is_session_text(text))
-        throw index::Error(
-            fmt::format("{}: a session, which names folders of this machine: expected a story, as "
-                        "\"save as story\" in the list of keys makes it",
-                        story.string()));
+        throw index::Error("{}: a session, which names folders of this machine: expected a story, "
+                           "as \"save as story\" in the list of keys makes it",
+                           story.string());
     story_in(text, story.string());
 }
 
 void write_site(const ServeArguments& arguments) {
     const fs::path& folder = arguments.write_site;
     if (!is_own(folder))
-        throw index::Error(fmt::format("{}: expected a new or empty folder, or one that `isochron "
-                                       "serve --write-site` wrote; nothing is written",
-                                       folder.string()));
+        throw index::Error("{}: expected a new or empty folder, or one that `isochron serve "
+                           "--write-site` wrote; nothing is written",
+                           folder.string());
     std::vector<fs::path> all = arguments.files;
     if (!arguments.story.empty())
         all.push_back(arguments.story);
@@ -150,10 +148,9 @@ void wait_for_signal() {
 void run_serve(const ServeArguments& arguments) {
     for (const fs::path& file : arguments.files)
         if (open_index(file)->referral())
-            throw index::Error(
-                fmt::format("{}: has no copy of its values (it was built with --refer); "
-                            "isochron build {} -o NEW.isochron makes one that has",
-                            file.string(), file.string()));
+            throw index::Error("{}: has no copy of its values (it was built with --refer); "
+                               "isochron build {} -o NEW.isochron makes one that has",
+                               file.string(), file.string());
     if (!arguments.story.empty())
         check_story(arguments.story);
     if (arguments.follow && !arguments.write_site.empty())
@@ -209,42 +206,33 @@ void add_serve(Command& program) {
         "serve", "Show indices on a web page, to browsers on this machine or on others.");
     command.examples(
         {"isochron serve run42.isochron", "isochron serve run42.isochron --write-site site/"});
-    command.option("files", arguments->files, "Indices to serve; the page shows the first")
-        .required()
-        .type_name("INDEX");
+    command.option("files INDEX", arguments->files, "Indices to serve; the page shows the first")
+        .required();
     command
-        .option("--address", arguments->address,
+        .option("--address ADDRESS", arguments->address,
                 "Address to listen on: 0.0.0.0 lets all machines of the network ask")
-        .shows_default()
-        .type_name("ADDRESS");
-    command.option("--port", arguments->port, "Port to listen on (default: one that is free)")
-        .between(0u, 65535u)
-        .type_name("PORT");
-    command
-        .option(
-            "--certificate", arguments->certificate,
-            "Certificate in PEM, to serve by https: headsets open the page in VR only by https or "
-            "from localhost")
-        .type_name("FILE");
-    command.option("--key", arguments->key, "Private key of the certificate, in PEM")
-        .type_name("FILE");
+        .shows_default();
+    command.option("--port PORT", arguments->port, "Port to listen on (default: one that is free)")
+        .between(0u, 65535u);
+    command.option(
+        "--certificate FILE", arguments->certificate,
+        "Certificate in PEM, to serve by https: headsets open the page in VR only by https or "
+        "from localhost");
+    command.option("--key FILE", arguments->key, "Private key of the certificate, in PEM");
     command.flag("--no-token", arguments->no_token,
                  "Let everybody who reaches the address open the page, without the token of the "
                  "printed link");
     command.flag("--follow", arguments->follow,
                  "Show steps that `build --append` adds meanwhile, to whoever has the page or the "
                  "link open");
-    command
-        .option("--story", arguments->story,
-                "Tell the story in this file on the page, on the first index: NAME.isochron-story "
-                "(docs/guide/stories.md)")
-        .type_name("FILE");
-    command
-        .option(
-            "--write-site", arguments->write_site,
-            "Write the page and the indices into this folder instead, as plain files for any web "
-            "server")
-        .type_name("FOLDER");
+    command.option(
+        "--story FILE", arguments->story,
+        "Tell the story in this file on the page, on the first index: NAME.isochron-story "
+        "(docs/guide/stories.md)");
+    command.option(
+        "--write-site FOLDER", arguments->write_site,
+        "Write the page and the indices into this folder instead, as plain files for any web "
+        "server");
     command.footer(
         "The page reads ranges of the files and searches in the browser; the server only "
         "sends bytes of these files. docs/guide/sharing.md says what other servers need.");

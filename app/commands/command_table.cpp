@@ -124,13 +124,13 @@ Json timing_rows(const fs::path& file) {
     try {
         report = Json::parse(in);
     } catch (const Json::exception& mistake) {
-        throw index::Error(fmt::format("{}: not a timing report: {}", file.string(),
-                                       index::json_mistake(mistake)));
+        throw index::Error("{}: not a timing report: {}", file.string(),
+                           index::json_mistake(mistake));
     }
     if (!report.is_object() || !report.contains("rows") || !report["rows"].is_array())
-        throw index::Error(fmt::format("{}: expected a recording, a session or a timing report of "
-                                       "`isochron replay --report`",
-                                       file.string()));
+        throw index::Error(
+            "{}: expected a recording, a session or a timing report of `isochron replay --report`",
+            file.string());
     Json rows = Json::array();
     for (const Json& each : report["rows"]) {
         Json row = Json::object();
@@ -142,7 +142,7 @@ Json timing_rows(const fs::path& file) {
 
 Table table_of(const fs::path& file) {
     if (!std::ifstream(file))
-        throw index::Error(fmt::format("{}: cannot be read", file.string()));
+        throw index::Error("{}: cannot be read", file.string());
     MarkRows marks;
     if (names_format(file, "isochron recording")) {
         const interaction::Recording recording = read_recording(file);
@@ -172,9 +172,7 @@ void run_table(const TableArguments& arguments) {
         return print_answer(text);
     guard_outputs({{arguments.out, OutputKind::surface}}, {{arguments.file}, nullptr},
                   arguments.force);
-    index::NewFile file(arguments.out);
-    file.write_at(0, std::as_bytes(std::span(text.str())));
-    file.commit();
+    index::write_file(arguments.out, text.str());
     tell_result({{"file", arguments.out.string()}, {"rows", rows.size()}});
     print_report("wrote {}: {} rows\n", arguments.out.string(), rows.size());
 }
@@ -187,13 +185,12 @@ void add_table(Command& program) {
         "table", "Print a table of what a session marked, or of the times of its frames.");
     command.examples({"isochron table walk.jsonl", "isochron table walk.jsonl --json"});
     command
-        .option("file", arguments->file,
+        .option("file FILE", arguments->file,
                 "Recording or session, whose marks, rulers, bookmarks and stamps become rows. Or a "
                 "timing report (`replay --report`), whose frames become rows")
-        .required()
-        .type_name("FILE");
-    command.option("-o,--output,--out", arguments->out, "File to write (default: print the table)")
-        .type_name("FILE");
+        .required();
+    command.option("-o,--output,--out FILE", arguments->out,
+                   "File to write (default: print the table)");
     command.flag("--force", arguments->force, "Replace a file that exists");
     command.flag(
         "--keep-formulas", arguments->keep_formulas,

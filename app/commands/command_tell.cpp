@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,7 +51,7 @@ json commands_of(const std::vector<std::string>& words) {
         if (word.starts_with('{')) {
             const json object = json::parse(word, nullptr, false);
             if (!object.is_object())
-                throw UsageError(fmt::format("tell: expected an object as JSON, got {}", word));
+                throw UsageError("tell: expected an object as JSON, got {}", word);
             commands.update(object);
         } else if (equals != std::string::npos) {
             const std::string value = word.substr(equals + 1);
@@ -61,9 +60,9 @@ json commands_of(const std::vector<std::string>& words) {
         } else if (happens_once(word)) {
             commands[word] = true;
         } else {
-            throw UsageError(fmt::format("tell: expected KEY=VALUE, an object as JSON, undo, redo, "
-                                         "save, screenshot, copy or quit, got {}",
-                                         word));
+            throw UsageError("tell: expected KEY=VALUE, an object as JSON, undo, redo, save, "
+                             "screenshot, copy or quit, got {}",
+                             word);
         }
     }
     return commands;
@@ -100,9 +99,7 @@ void write_picture(const ControlClient::Answer& answer, const std::string& path)
 }
 
 void write_cells(const ControlClient::Answer& answer, const std::string& path) {
-    index::NewFile file(path);
-    file.write_at(0, answer.bytes);
-    file.commit();
+    index::write_file(path, answer.bytes);
 }
 
 /// Prints events until the session ends, or a signal comes.
@@ -127,9 +124,8 @@ void check(const TellArguments& arguments, const ControlRequest& request) {
         throw UsageError(writes ? fmt::format("tell {}: needs -o FILE", arguments.words.front())
                                 : "tell: -o is for picture and cells");
     if (request.verb == ControlVerb::picture && !stereo::is_picture_name(*arguments.out))
-        throw UsageError(fmt::format("-o: expected a name that ends in .png, .exr, .tiff or .jpg, "
-                                     "got {}",
-                                     *arguments.out));
+        throw UsageError("-o: expected a name that ends in .png, .exr, .tiff or .jpg, got {}",
+                         *arguments.out);
     if (writes)
         guard_outputs({{*arguments.out, request.verb == ControlVerb::picture ? OutputKind::picture
                                                                              : OutputKind::ids}},
@@ -141,7 +137,7 @@ void run_tell(const TellArguments& arguments) {
     try {
         request = request_of(arguments);
     } catch (const interaction::Error& error) {
-        throw UsageError(fmt::format("tell: {}", error.what()));
+        throw UsageError("tell: {}", error.what());
     }
     check(arguments, request);
     ControlClient client(control_address(arguments.socket), arguments.token_file);
@@ -172,26 +168,21 @@ void add_tell(Command& program) {
         "its state, a picture or cells.");
     command.examples({"isochron tell step=2 isovalue=100", "isochron tell picture -o now.png"});
     command
-        .option("words", arguments->words,
+        .option("words COMMAND", arguments->words,
                 "Commands: KEY=VALUE with the keys of a recording's commands, an object of them as "
                 "JSON, or a word: undo, redo, save, screenshot, copy, quit. Or a question: state; "
                 "picture; cells [isovalue=V] [step=N]; subscribe [state] [time] [cells] "
                 "[statistics], which prints a line for each event")
-        .required()
-        .type_name("COMMAND");
-    command
-        .option("--socket", arguments->socket,
-                "Socket of the session: a path, or 127.0.0.1:PORT (default: the socket that "
-                "`explore --control` opens)")
-        .type_name("SOCKET");
-    command
-        .option("--token-file", arguments->token_file,
-                "File with the token of 127.0.0.1:PORT (default: the one that the session wrote)")
-        .type_name("FILE");
-    command
-        .option("-o,--output,--out", arguments->out,
-                "File for a picture, or for the numbers of cells as `query --output` writes them")
-        .type_name("FILE");
+        .required();
+    command.option("--socket SOCKET", arguments->socket,
+                   "Socket of the session: a path, or 127.0.0.1:PORT (default: the socket that "
+                   "`explore --control` opens)");
+    command.option(
+        "--token-file FILE", arguments->token_file,
+        "File with the token of 127.0.0.1:PORT (default: the one that the session wrote)");
+    command.option(
+        "-o,--output,--out FILE", arguments->out,
+        "File for a picture, or for the numbers of cells as `query --output` writes them");
     command.flag("--now", arguments->now,
                  "Take the picture as it is, without waiting for all cells and the final quality");
     command.flag("--force", arguments->force, "Let --output replace any file");

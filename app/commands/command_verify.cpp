@@ -8,7 +8,6 @@
 #include "index/file/index_file.h"
 #include "index/file/index_states.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <unistd.h>
@@ -51,7 +50,7 @@ void add_verify(Command& program) {
         "verify", "Check every checksum of an index, which reads the whole file.");
     command.examples(
         {"isochron verify run42.isochron", "isochron verify run42.isochron && echo intact"});
-    command.option("file", *path, "Index to check").required().type_name("INDEX");
+    command.option("file INDEX", *path, "Index to check").required();
     command.footer("If the index refers to files instead of holding their values, these files are "
                    "checked, too. One line says where the damage is.");
     command.exit_status(0, "intact");

@@ -4,7 +4,6 @@
 #include "app/csv_field.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace isochron::app {
 namespace {

@@ -11,9 +11,7 @@ namespace isochron::app {
 
 void write_ids(const std::filesystem::path& path, const std::vector<index::CellId>& ids) {
     static_assert(std::endian::native == std::endian::little && sizeof(index::CellId) == 4);
-    index::NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(ids)));
-    file.commit();
+    index::write_file(path, std::as_bytes(std::span(ids)));
 }
 
 void write_ids(const std::filesystem::path& path, const index::CellSet& set,
@@ -24,9 +22,7 @@ void write_ids(const std::filesystem::path& path, const index::CellSet& set,
     ids.reserve(set.points.size());
     for (const index::CellPoint& point : set.points)
         ids.push_back(index::wide_id(grid, point.x, point.y, point.z));
-    index::NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(ids)));
-    file.commit();
+    index::write_file(path, std::as_bytes(std::span(ids)));
 }
 
 } // namespace isochron::app

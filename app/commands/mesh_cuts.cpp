@@ -36,10 +36,9 @@ double distance_of(const std::string& text, double cell) {
     const bool in_cells = unit == "cells" || unit == "cell";
     if (problem != std::errc{} || !(number > 0) || !std::isfinite(number) ||
         !(unit.empty() || in_cells))
-        throw UsageError(
-            fmt::format("--simplify {}: expected a distance above 0 in the unit of the "
-                        "file (0.1) or in cells (0.5cells)",
-                        text));
+        throw UsageError("--simplify {}: expected a distance above 0 in the unit of the file (0.1) "
+                         "or in cells (0.5cells)",
+                         text);
     return in_cells ? number * cell : number;
 }
 
@@ -78,8 +77,8 @@ struct Simplifying {
         // Both surfaces are rounded: the one that is exported, and the one that it is compared with.
         const double rounding = 2 * index::ExportedPlaces(grid, plan).rounding(side);
         const auto refused = [&](const std::string& why) {
-            throw index::Error(fmt::format("step {}: --simplify {}: {}",
-                                           index::number_text(query.instant), asked, why));
+            throw index::Error("step {}: --simplify {}: {}", index::number_text(query.instant),
+                               asked, why);
         };
         if (error <= rounding)
             refused(fmt::format("a file of this precision moves vertices by up to {} already",
@@ -106,9 +105,9 @@ std::optional<interaction::ClipPlane> plane_of(const std::vector<double>& number
     const glm::dvec3 normal(numbers[3], numbers[4], numbers[5]);
     const double length = glm::length(normal);
     if (!(length > 0) || !std::isfinite(length))
-        throw UsageError(fmt::format("--clip {:g}: expected a point on the plane and its normal, "
-                                     "which is not 0: X Y Z NX NY NZ",
-                                     fmt::join(numbers, " ")));
+        throw UsageError("--clip {:g}: expected a point on the plane and its normal, which is not "
+                         "0: X Y Z NX NY NZ",
+                         fmt::join(numbers, " "));
     return interaction::ClipPlane{true, point, normal / length};
 }
 
@@ -126,10 +125,9 @@ index::VertexBox box_of(const std::string& text, const index::Grid& grid) {
         box.last[axis] = static_cast<std::uint32_t>(last);
     }
     if (!fits)
-        throw UsageError(fmt::format(
-            "--crop {}: expected X0:X1,Y0:Y1,Z0:Z1, vertices from 0 to {}, {} and {}, the first "
-            "below the last",
-            text, grid.vertices[0] - 1, grid.vertices[1] - 1, grid.vertices[2] - 1));
+        throw UsageError("--crop {}: expected X0:X1,Y0:Y1,Z0:Z1, vertices from 0 to {}, {} and {}, "
+                         "the first below the last",
+                         text, grid.vertices[0] - 1, grid.vertices[1] - 1, grid.vertices[2] - 1);
     return box;
 }
 

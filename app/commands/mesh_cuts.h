@@ -2,7 +2,6 @@
 #pragma once
 
 #include "index/export/surface_export.h"
-#include "index/surface/cell_mesh.h"
 #include "index/surface/mesh_crop.h"
 #include "index/volume/grid.h"
 #include "interaction/setting_values.h"

@@ -79,9 +79,8 @@ void heads_without_tracker(const CheckedRoom& room, const Tell& tell) {
                 return device.options.name == head && device.options.has_pose;
             });
         if (!tracked)
-            tell(room, viewer.line.number,
-                 fmt::format("no tracker provides device {}, which tracks viewer {}", head,
-                             viewer.name));
+            tell(viewer.line.number, "no tracker provides device {}, which tracks viewer {}", head,
+                 viewer.name);
     }
 }
 
@@ -92,8 +91,8 @@ void trackers_without_head(const CheckedRoom& room, const Tell& tell) {
         std::ranges::none_of(devices, [&](const ListedDevice& device) {
             return device.options.has_pose && is_head(room, device.options.name);
         }))
-        tell(room, devices.front().line,
-             "no tracked device is called head: mouse and keyboard move it", devices.front().key);
+        tell.of(devices.front().key)(
+            devices.front().line, "no tracked device is called head: mouse and keyboard move it");
 }
 
 /// Buttons of a device with a name that nothing acts on, and names with a slip.
@@ -116,15 +115,13 @@ void names_without_effect(const CheckedRoom& room, const Tell& tell) {
         const bool taken = std::ranges::any_of(
             devices, [&](const ListedDevice& other) { return other.options.name == near; });
         if (!near.empty() && !taken)
-            tell(room, device.line,
-                 fmt::format("nothing acts on a device called {}; did you mean '{}'?", name, near),
-                 device.key);
+            tell.of(device.key)(
+                device.line, "nothing acts on a device called {}; did you mean '{}'?", name, near);
         else if (device.has_buttons && !hand)
-            tell(room, device.line,
-                 fmt::format("nothing acts on a device called {}: the hand with the buttons is "
-                             "called wand",
-                             name),
-                 device.key);
+            tell.of(device.key)(
+                device.line,
+                "nothing acts on a device called {}: the hand with the buttons is called wand",
+                name);
     }
 }
 
@@ -137,14 +134,13 @@ void hands_without_wand(const CheckedRoom& room, const Tell& tell) {
         });
     };
     if (const auto other = named("wand2"); other != devices.end() && named("wand") == devices.end())
-        tell(room, other->line, "wand2 is the other hand, and none is called wand", other->key);
+        tell.of(other->key)(other->line, "wand2 is the other hand, and none is called wand");
 }
 
 void eyes_on_hands(const CheckedRoom& room, const Tell& tell) {
     for (const stereo::Viewer& viewer : room.installation().viewers)
         if (viewer.head == "wand" || viewer.head == "wand2")
-            tell(room, viewer.line.number,
-                 fmt::format("the eyes of {} follow {}, a hand", viewer.name, viewer.head));
+            tell(viewer.line.number, "the eyes of {} follow {}, a hand", viewer.name, viewer.head);
 }
 
 /// `source = "/isochron/wand"` where `wand` is meant, or a prefix with the name of a device.
@@ -156,9 +152,8 @@ void osc_names(const CheckedRoom& room, const Tell& tell) {
                                   ? "the prefix stands before the device's name"
                                   : nullptr;
             if (why)
-                tell(room, tracker.line,
-                     fmt::format("'{}': poses would come to {}/{}/pose: {}", each.source,
-                                 tracker.prefix, each.source, why));
+                tell(tracker.line, "'{}': poses would come to {}/{}/pose: {}", each.source,
+                     tracker.prefix, each.source, why);
         }
 }
 
@@ -169,10 +164,8 @@ void sources_read_twice(const CheckedRoom& room, const Tell& tell) {
             continue;
         const auto [known, is_new] = first.emplace(device.source, device.options.name);
         if (!is_new)
-            tell(room, device.line,
-                 fmt::format("{} and {} are both {}", known->second, device.options.name,
-                             device.source),
-                 device.key);
+            tell.of(device.key)(device.line, "{} and {} are both {}", known->second,
+                                device.options.name, device.source);
     }
 }
 
@@ -183,15 +176,13 @@ void poses_given_twice(const CheckedRoom& room, const Tell& tell) {
         for (std::size_t j = 0; j < i; ++j)
             if (const auto &a = devices[j], &b = devices[i];
                 a.options.name == b.options.name && a.options.has_pose && b.options.has_pose)
-                tell(room, b.line,
-                     fmt::format("{} has its pose from the tracker of line {} already{}",
-                                 b.options.name, a.line,
-                                 b.key == "osc" ? ": pose = false for a box of buttons" : ""),
-                     b.key);
+                tell.of(b.key)(b.line, "{} has its pose from the tracker of line {} already{}",
+                               b.options.name, a.line,
+                               b.key == "osc" ? ": pose = false for a box of buttons" : "");
     if (room.config().openxr.enabled)
         for (const ListedDevice& device : devices)
             if (device.options.name == "head" && device.options.has_pose)
-                tell(room, device.line, "a headset tracks head, too: openxr.enabled", device.key);
+                tell.of(device.key)(device.line, "a headset tracks head, too: openxr.enabled");
 }
 
 /// Calls `visit(endpoint, key, tracker)` for each tracker that listens on a port.
@@ -222,10 +213,8 @@ void ports_taken_twice(const CheckedRoom& room, const Tell& tell) {
                             const auto& tracker) {
         for (const Listener& other : before)
             if (overlap(endpoint, other.endpoint))
-                tell(room, tracker.line,
-                     fmt::format("{} is the {} tracker's of line {} already", to_string(endpoint),
-                                 other.key, other.line),
-                     key);
+                tell.of(key)(tracker.line, "{} is the {} tracker's of line {} already",
+                             to_string(endpoint), other.key, other.line);
         before.push_back({endpoint, key, tracker.line});
     });
 }
@@ -243,7 +232,7 @@ void unlikely_ports(const CheckedRoom& room, const Tell& tell) {
                                 "settings"
                               : nullptr;
         if (why)
-            tell(room, tracker.line, fmt::format("{}: {}", port, why), key);
+            tell.of(key)(tracker.line, "{}: {}", port, why);
     });
 }
 
@@ -279,13 +268,13 @@ void unlikely_addresses(const CheckedRoom& room, const Tell& tell) {
                     why = "is from, the sender: address is this machine's";
             }
         if (!why.empty())
-            tell(room, tracker.line, fmt::format("{} {}", own, why), key);
+            tell.of(key)(tracker.line, "{} {}", own, why);
     });
 }
 
 void trackers_not_built_in(const CheckedRoom& room, const Tell& tell) {
     for (const ConfigProblem& missing : missing_trackers(room.config()))
-        tell(room, missing.line, missing.text, missing.key);
+        tell.of(missing.key)(missing.line, "{}", missing.text);
 }
 
 /// Whether a rotation turns by amounts that are round in radians when they are read as degrees.
@@ -315,12 +304,11 @@ void scales(const CheckedRoom& room, const Tell& tell) {
         constexpr bool kKnown = std::same_as<T, interaction::DTrackOptions>;
         const double scale = tracker.common.calibration.scale;
         if (scale < (kKnown ? 0.5 : 0.9e-3) || scale > 2)
-            tell(room, tracker.line,
-                 fmt::format("{:.4g}: meters for each meter that the tracker reports, expected 1{}",
-                             scale,
-                             kKnown ? ", as DTrack's millimeters are read as such"
-                                    : ", or 0.001 where it takes millimeters for meters"),
-                 key);
+            tell.of(key)(tracker.line,
+                         "{:.4g}: meters for each meter that the tracker reports, expected 1{}",
+                         scale,
+                         kKnown ? ", as DTrack's millimeters are read as such"
+                                : ", or 0.001 where it takes millimeters for meters");
     });
 }
 
@@ -340,25 +328,20 @@ void places_of_trackers(const CheckedRoom& room, const Tell& tell) {
         const float away = glm::distance(at, glm::clamp(at, box.low, box.high));
         const float under = floor_level(walls) - at.y;
         if (away > kBeside)
-            tell(
-                room, tracker.line,
-                fmt::format("the tracker's origin is {:.4g} m from walls and viewer: meters in the "
-                            "room{}",
-                            away, other_unit(glm::length(at), 0.3f, 5)),
-                key);
+            tell.of(key)(
+                tracker.line,
+                "the tracker's origin is {:.4g} m from walls and viewer: meters in the room{}",
+                away, other_unit(glm::length(at), 0.3f, 5));
         else if (under > kUnder)
-            tell(
-                room, tracker.line,
-                fmt::format("the tracker's origin is {:.4g} m under the floor: y points up", under),
-                key);
+            tell.of(key)(tracker.line,
+                         "the tracker's origin is {:.4g} m under the floor: y points up", under);
     });
 }
 
 void orientations_of_trackers(const CheckedRoom& room, const Tell& tell) {
     each_tracker(room.config().devices, [&](const char* key, const auto& tracker) {
         if (looks_like_radians(tracker.common.calibration.room_from_tracker.orientation))
-            tell(room, tracker.line, "its angles are round in radians, and are read as degrees",
-                 key);
+            tell.of(key)(tracker.line, "its angles are round in radians, and are read as degrees");
     });
 }
 
@@ -369,12 +352,11 @@ void tilted_trackers(const CheckedRoom& room, const Tell& tell) {
         const glm::quat turn = tracker.common.calibration.room_from_tracker.orientation;
         const glm::vec3 up = glm::inverse(turn) * glm::vec3(0, 1, 0); // in the tracker's axes
         if (std::max(up.y, up.z) < kLevel && !looks_like_radians(turn))
-            tell(room, tracker.line,
-                 fmt::format("the room's up is ({:.2f} {:.2f} {:.2f}) in the tracker's axes, "
-                             "expected +Y, or +Z as with [0, -90, 0]: heading, pitch, roll in "
-                             "degrees",
-                             up.x + 0.0f, up.y + 0.0f, up.z + 0.0f),
-                 "dtrack");
+            tell.of("dtrack")(
+                tracker.line,
+                "the room's up is ({:.2f} {:.2f} {:.2f}) in the tracker's axes, expected +Y, or +Z "
+                "as with [0, -90, 0]: heading, pitch, roll in degrees",
+                up.x + 0.0f, up.y + 0.0f, up.z + 0.0f);
     }
 }
 
@@ -386,20 +368,18 @@ void offsets(const CheckedRoom& room, const Tell& tell) {
         const bool head = is_head(room, name);
         const float most = head ? kOnHead : name.starts_with("wand") ? kInHand : kElsewhere;
         if (arm > most)
-            tell(room, device.line,
-                 fmt::format("{}: {:.4g} m from its sensor{}: offsets are in meters", name, arm,
-                             head ? " to between the eyes" : ""),
-                 device.key);
+            tell.of(device.key)(device.line,
+                                "{}: {:.4g} m from its sensor{}: offsets are in meters", name, arm,
+                                head ? " to between the eyes" : "");
     }
 }
 
 void rotations(const CheckedRoom& room, const Tell& tell) {
     for (const ListedDevice& device : listed(room))
         if (looks_like_radians(device.options.calibration.sensor_from_thing.orientation))
-            tell(room, device.line,
-                 fmt::format("{}: its angles are round in radians, and are read as degrees",
-                             device.options.name),
-                 device.key);
+            tell.of(device.key)(device.line,
+                                "{}: its angles are round in radians, and are read as degrees",
+                                device.options.name);
 }
 
 /// A marker has no orientation: the eyes would not turn with the head.
@@ -411,11 +391,10 @@ void markers_as_heads(const CheckedRoom& room, const Tell& tell) {
     for (const interaction::DTrackOptions& tracker : room.config().devices.dtrack)
         for (const interaction::DTrackDevice& each : tracker.devices)
             if (each.kind == DTrackKind::marker && is_head(room, each.device.name) && around)
-                tell(room, tracker.line,
-                     fmt::format("{}: a marker has no orientation, so the eyes do not turn to the "
-                                 "walls at the side: expected a body",
-                                 each.device.name),
-                     "dtrack");
+                tell.of("dtrack")(tracker.line,
+                                  "{}: a marker has no orientation, so the eyes do not turn to the "
+                                  "walls at the side: expected a body",
+                                  each.device.name);
 }
 
 /// A ray cannot be pointed by a marker, and a flystick is no thing to wear.
@@ -431,7 +410,7 @@ void kinds_of_devices(const CheckedRoom& room, const Tell& tell) {
                                     "at: expected a flystick or a body"
                                   : nullptr;
             if (why)
-                tell(room, tracker.line, fmt::format("{}: {}", name, why), "dtrack");
+                tell.of("dtrack")(tracker.line, "{}: {}", name, why);
         }
 }
 
@@ -446,10 +425,8 @@ void numbers_from_one(const CheckedRoom& room, const Tell& tell) {
             }
         if (least.size() > 1 &&
             std::ranges::all_of(least, [](const auto& kind) { return kind.second == 1; }))
-            tell(room, tracker.line,
-                 "the first body and the first flystick are number 1: DTrack's datagrams count "
-                 "both from 0",
-                 "dtrack");
+            tell.of("dtrack")(tracker.line, "the first body and the first flystick are number 1: "
+                                            "DTrack's datagrams count both from 0");
     }
 }
 
@@ -461,11 +438,10 @@ void shared_buttons(const CheckedRoom& room, const Tell& tell) {
                 if (const auto &a = tracker.devices[j], &b = tracker.devices[i];
                     !b.buttons.empty() && a.buttons == b.buttons &&
                     a.device.buttons == b.device.buttons && a.device.name != b.device.name)
-                    tell(room, tracker.line,
-                         fmt::format("{} and {} both have the buttons of {}: buttons = [...] says "
-                                     "which are whose",
-                                     a.device.name, b.device.name, b.buttons),
-                         "vrpn");
+                    tell.of("vrpn")(tracker.line,
+                                    "{} and {} both have the buttons of {}: buttons = [...] says "
+                                    "which are whose",
+                                    a.device.name, b.device.name, b.buttons);
 }
 
 /// Text that says which number a list has twice; empty: none.
@@ -505,9 +481,8 @@ void button_lists(const CheckedRoom& room, const Tell& tell) {
                     why = "without button = NAME@HOST there are none";
             }
             if (!why.empty())
-                tell(room, tracker.line,
-                     fmt::format("{}: [{}]: {}", each.device.name, fmt::join(buttons, ", "), why),
-                     key);
+                tell.of(key)(tracker.line, "{}: [{}]: {}", each.device.name,
+                             fmt::join(buttons, ", "), why);
         }
     });
 }
@@ -528,9 +503,8 @@ void valuator_lists(const CheckedRoom& room, const Tell& tell) {
                     why = "without analog = NAME@HOST there are none";
             }
             if (!why.empty())
-                tell(room, tracker.line,
-                     fmt::format("{}: [{}]: {}", each.device.name, fmt::join(valuators, ", "), why),
-                     key);
+                tell.of(key)(tracker.line, "{}: [{}]: {}", each.device.name,
+                             fmt::join(valuators, ", "), why);
         }
     });
 }
@@ -540,13 +514,12 @@ void valuator_factors(const CheckedRoom& room, const Tell& tell) {
     for (const ListedDevice& device : listed(room))
         for (const float factor : device.options.valuator_factors)
             if (std::abs(factor) < kLeast || std::abs(factor) > kMost)
-                tell(room, device.line,
-                     fmt::format("{}: {:g} {}; 1 leaves a valuator as it is, from -1 to 1",
-                                 device.options.name, factor,
-                                 factor == 0                 ? "makes a valuator stand still"
-                                 : std::abs(factor) < kLeast ? "hardly moves it"
-                                                             : "moves it at the slightest touch"),
-                     device.key);
+                tell.of(device.key)(
+                    device.line, "{}: {:g} {}; 1 leaves a valuator as it is, from -1 to 1",
+                    device.options.name, factor,
+                    factor == 0                 ? "makes a valuator stand still"
+                    : std::abs(factor) < kLeast ? "hardly moves it"
+                                                : "moves it at the slightest touch");
 }
 
 void limits_of_prediction(const CheckedRoom& room, const Tell& tell) {
@@ -554,12 +527,10 @@ void limits_of_prediction(const CheckedRoom& room, const Tell& tell) {
         const interaction::PredictionOptions& prediction = device.options.prediction;
         const interaction::Seconds wanted = prediction.display_delay + device.options.latency;
         if (prediction.on && device.options.has_pose && wanted > 2 * prediction.limit)
-            tell(room, device.line,
-                 fmt::format("{}: {:.4g} ms are to be predicted, of which the limit lets through "
-                             "{:.4g} ms",
-                             device.options.name, 1e3 * wanted.count(),
-                             1e3 * prediction.limit.count()),
-                 device.key);
+            tell.of(device.key)(
+                device.line,
+                "{}: {:.4g} ms are to be predicted, of which the limit lets through {:.4g} ms",
+                device.options.name, 1e3 * wanted.count(), 1e3 * prediction.limit.count());
     }
 }
 
@@ -573,15 +544,12 @@ void names_of_vrpn(const CheckedRoom& room, const Tell& tell) {
                 const std::size_t at = std::min(name.find('@'), name.size());
                 const auto of_kind = [&](const char* word) { return name.starts_with(word); };
                 if (!of_kind(kind) && (of_kind("Tracker") || of_kind("Button")))
-                    tell(room, tracker.line,
-                         fmt::format("{}: '{}' is named as {}", each.device.name, name,
-                                     of_kind("Tracker") ? "a tracker is" : "buttons are"),
-                         "vrpn");
+                    tell.of("vrpn")(tracker.line, "{}: '{}' is named as {}", each.device.name, name,
+                                    of_kind("Tracker") ? "a tracker is" : "buttons are");
                 else if (!name.empty() && (at == 0 || at + 1 >= name.size() ||
                                            interaction::is_address(name.substr(0, at))))
-                    tell(room, tracker.line,
-                         fmt::format("{}: '{}': expected NAME@HOST", each.device.name, name),
-                         "vrpn");
+                    tell.of("vrpn")(tracker.line, "{}: '{}': expected NAME@HOST", each.device.name,
+                                    name);
             }
 }
 

@@ -88,9 +88,9 @@ std::vector<MapPoint> points_of(const json& map, const std::string& where) {
     const auto found = map.find("RGBPoints");
     if (found == map.end() || !found->is_array() || found->size() < 8 || found->size() % 4 != 0 ||
         found->size() > 4 * kMostPoints)
-        throw ConfigError(fmt::format("{}: RGBPoints: expected a list of numbers, four for each of "
-                                      "two points or more",
-                                      where));
+        throw ConfigError(
+            "{}: RGBPoints: expected a list of numbers, four for each of two points or more",
+            where);
     std::vector<MapPoint> points;
     for (std::size_t i = 0; i < found->size(); i += 4) {
         std::array<double, 4> numbers{};
@@ -98,14 +98,13 @@ std::vector<MapPoint> points_of(const json& map, const std::string& where) {
             const json& value = (*found)[i + k];
             numbers[k] = value.is_number() ? value.get<double>() : std::nan("");
             if (!std::isfinite(numbers[k]) || (k > 0 && (numbers[k] < 0 || numbers[k] > 1)))
-                throw ConfigError(fmt::format(
-                    "{}: RGBPoints, number {}: expected {}, got {}", where, i + k,
-                    k > 0 ? "a color from 0 to 1" : "a place", value.dump().substr(0, 40)));
+                throw ConfigError("{}: RGBPoints, number {}: expected {}, got {}", where, i + k,
+                                  k > 0 ? "a color from 0 to 1" : "a place",
+                                  value.dump().substr(0, 40));
         }
         if (!points.empty() && !(numbers[0] > points.back().at))
-            throw ConfigError(fmt::format("{}: RGBPoints, number {}: expected a place above {}, "
-                                          "got {}",
-                                          where, i, points.back().at, numbers[0]));
+            throw ConfigError("{}: RGBPoints, number {}: expected a place above {}, got {}", where,
+                              i, points.back().at, numbers[0]);
         points.push_back({numbers[0], glm::vec3(numbers[1], numbers[2], numbers[3])});
     }
     return points;
@@ -113,13 +112,12 @@ std::vector<MapPoint> points_of(const json& map, const std::string& where) {
 
 LoadedColorMap map_of(const json& map, const std::string& file, std::size_t number) {
     if (!map.is_object())
-        throw ConfigError(fmt::format("{}: map {}: expected an object", file, number));
+        throw ConfigError("{}: map {}: expected an object", file, number);
     LoadedColorMap loaded;
     const auto name = map.find("Name");
     if (name == map.end() || !name->is_string() || name->get<std::string>().empty() ||
         name->get<std::string>().size() > 64)
-        throw ConfigError(
-            fmt::format("{}: map {}: Name: expected a text of 1 to 64 bytes", file, number));
+        throw ConfigError("{}: map {}: Name: expected a text of 1 to 64 bytes", file, number);
     loaded.name = name->get<std::string>();
     const std::vector<MapPoint> points =
         points_of(map, fmt::format("{}: map '{}'", file, loaded.name));
@@ -140,12 +138,10 @@ LoadedColorMap map_of(const json& map, const std::string& file, std::size_t numb
 std::vector<LoadedColorMap> parse_color_maps(const std::string& text, const std::string& name) {
     const json maps = json::parse(text, nullptr, false);
     if (maps.is_discarded())
-        throw ConfigError(
-            fmt::format("{}: expected color maps as ParaView exports them, in JSON", name));
+        throw ConfigError("{}: expected color maps as ParaView exports them, in JSON", name);
     const json list = maps.is_array() ? maps : json::array({maps});
     if (list.empty() || list.size() > kMostMaps)
-        throw ConfigError(
-            fmt::format("{}: expected 1 to {} color maps, got {}", name, kMostMaps, list.size()));
+        throw ConfigError("{}: expected 1 to {} color maps, got {}", name, kMostMaps, list.size());
     std::vector<LoadedColorMap> loaded;
     for (std::size_t i = 0; i < list.size(); ++i)
         loaded.push_back(map_of(list[i], name, i));

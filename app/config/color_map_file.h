@@ -16,7 +16,7 @@ struct LoadedColorMap {
     bool operator==(const LoadedColorMap&) const = default;
 };
 
-/// Number of colors kept of a loaded map; between them colors are interpolated in L*a*b*.
+/// Number of colors that a loaded map is reduced to; between them colors are interpolated in L*a*b*.
 inline constexpr std::size_t kLoadedColors = 128;
 
 /// The maps of a file, in its order: `Name`, `RGBPoints` (place, red, green and blue in turn,

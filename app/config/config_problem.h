@@ -1,8 +1,11 @@
 // What is wrong with a configuration.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace isochron::app {
 
@@ -11,6 +14,10 @@ namespace isochron::app {
 class ConfigError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
+    /// The message as a format with its values.
+    template <class... Values>
+    explicit ConfigError(fmt::format_string<Values...> text, Values&&... values)
+        : std::runtime_error(fmt::format(text, std::forward<Values>(values)...)) {}
 };
 
 /// Part of a configuration that can be read but will not work, or that only looks odd.

@@ -68,9 +68,9 @@ std::unique_ptr<stereo::Headset> open_headset(const OpenXrConfig& config) {
         return open_runtime(options);
     } catch (const render::Error& error) {
         if (config.fallback != WithoutRuntime::window)
-            throw render::Error(fmt::format("{}; openxr.fallback = \"wait\" looks for one until it "
-                                            "is there, \"window\" does without",
-                                            error.what()));
+            throw render::Error("{}; openxr.fallback = \"wait\" looks for one until it is there, "
+                                "\"window\" does without",
+                                error.what());
         print_note("warning: {}; the windows are shown instead", error.what());
         return nullptr;
     }

@@ -49,9 +49,8 @@ class PvxReader {
     PvxImport read(const std::string& text) {
         tinyxml2::XMLDocument document;
         if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
-            throw ConfigError(fmt::format("{}:{}: not well-formed XML ({})", file_,
-                                          std::max(document.ErrorLineNum(), 1),
-                                          document.ErrorName()));
+            throw ConfigError("{}:{}: not well-formed XML ({})", file_,
+                              std::max(document.ErrorLineNum(), 1), document.ErrorName());
         const XMLElement* root = document.RootElement();
         if (!root || std::string_view(root->Name()) != "pvx")
             throw ConfigError(

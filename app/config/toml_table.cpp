@@ -122,6 +122,10 @@ const toml::node* TomlTable::take(std::string_view key) {
     return find(key);
 }
 
+bool TomlTable::knows(std::string_view key) const {
+    return std::ranges::find(*known_, prefix_ + std::string(key)) != known_->end();
+}
+
 void TomlTable::fail(std::string_view key, const std::string& message) const {
     const std::string path = prefix_ + std::string(key);
     const auto line = follow(*table_, path).first->source().begin.line;

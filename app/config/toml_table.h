@@ -27,6 +27,8 @@ class TomlTable {
     bool has(std::string_view key) const { return find(key) != nullptr; }
     /// The value of a key, which is known from now on; null: absent.
     const toml::node* take(std::string_view key);
+    /// Whether a key was taken.
+    bool knows(std::string_view key) const;
     bool is_there() const { return !!here(); }
     int line() const; ///< line of the table; 0: it is not there
 

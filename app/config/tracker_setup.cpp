@@ -58,7 +58,7 @@ void describe(const DeviceOptions& device, const std::string& source,
 }
 
 Error missing(const char* tracker, const char* library) {
-    return Error(fmt::format("{}: this program was built without {}", tracker, library));
+    return Error("{}: this program was built without {}", tracker, library);
 }
 
 #ifdef ISOCHRON_WITH_OSC
@@ -119,7 +119,7 @@ void open_trackers(const Config& config, CompositeInput& input) {
         try {
             input.add(opened(tracker));
         } catch (const Error& error) {
-            throw Error(fmt::format("{}:{}: {}: {}", config.name, tracker.line, key, error.what()));
+            throw Error("{}:{}: {}: {}", config.name, tracker.line, key, error.what());
         }
     });
 }

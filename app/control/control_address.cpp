@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include <arpa/inet.h>
@@ -31,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr int kWaiting = 16; ///< connections that nobody has accepted yet
 
 [[noreturn]] void fail_at(const std::string& where, const char* what) {
-    throw interaction::Error(fmt::format("{}: {}: {}", where, what, std::strerror(errno)));
+    throw interaction::Error("{}: {}: {}", where, what, std::strerror(errno));
 }
 
 std::string words_of(const ControlAddress& address) {
@@ -43,8 +42,8 @@ sockaddr_un unix_address(const fs::path& path) {
     address.sun_family = AF_UNIX;
     const std::string text = path.string();
     if (text.size() >= sizeof address.sun_path)
-        throw interaction::Error(fmt::format("{}: too long for a socket, expected at most {} bytes",
-                                             text, sizeof address.sun_path - 1));
+        throw interaction::Error("{}: too long for a socket, expected at most {} bytes", text,
+                                 sizeof address.sun_path - 1);
     std::memcpy(address.sun_path, text.c_str(), text.size() + 1);
     return address;
 }
@@ -95,8 +94,8 @@ void remove_left_socket(const fs::path& path) {
     const sockaddr_un address = unix_address(path);
     if (connect(trial.get(), plain(address), sizeof address) == 0 || errno != ECONNREFUSED)
         throw interaction::Error(
-            fmt::format("{}: another program listens there; --control=PATH names another socket",
-                        path.string()));
+            "{}: another program listens there; --control=PATH names another socket",
+            path.string());
     unlink(path.c_str());
 }
 
@@ -156,23 +155,20 @@ ControlAddress control_address(const std::string& text) {
     ControlAddress address;
     const auto [end, error] = std::from_chars(first, last, address.port);
     if (error != std::errc() || end != last)
-        throw interaction::Error(
-            fmt::format("{}: expected a path with a slash, or 127.0.0.1:PORT", text));
+        throw interaction::Error("{}: expected a path with a slash, or 127.0.0.1:PORT", text);
     if (host != "127.0.0.1" && host != "localhost")
-        throw interaction::Error(
-            fmt::format("{}: expected 127.0.0.1 as the host: no other machine can connect; from "
-                        "elsewhere, ssh -L forwards a port or a path",
-                        text));
+        throw interaction::Error("{}: expected 127.0.0.1 as the host: no other machine can "
+                                 "connect; from elsewhere, ssh -L forwards a port or a path",
+                                 text);
     return address;
 }
 
 void expect_place_for_socket(const ControlAddress& address) {
     struct stat there {};
     if (!address.is_tcp() && lstat(address.path.c_str(), &there) == 0 && !S_ISSOCK(there.st_mode))
-        throw interaction::Error(fmt::format(
-            "{}: exists and is no socket; --control=PATH takes the path of a new one, and stands "
-            "behind the names of data",
-            address.path.string()));
+        throw interaction::Error("{}: exists and is no socket; --control=PATH takes the path of a "
+                                 "new one, and stands behind the names of data",
+                                 address.path.string());
 }
 
 fs::path default_control_path() {
@@ -207,12 +203,11 @@ ControlSocket connect_to(const ControlAddress& address) {
         failed = connect(made.get(), plain(there), sizeof there);
     }
     if (failed != 0 && (errno == EAGAIN || errno == EINPROGRESS))
-        throw interaction::Error(
-            fmt::format("{}: the session hangs: it lets nobody in", words_of(address)));
+        throw interaction::Error("{}: the session hangs: it lets nobody in", words_of(address));
     if (failed != 0)
-        throw interaction::Error(fmt::format("{}: nobody listens there ({}); isochron explore "
-                                             "--control begins a session that does",
-                                             words_of(address), std::strerror(errno)));
+        throw interaction::Error(
+            "{}: nobody listens there ({}); isochron explore --control begins a session that does",
+            words_of(address), std::strerror(errno));
     return made;
 }
 

@@ -9,13 +9,11 @@
 #include "index/search/surface_mesh.h"
 #include "interaction/recording/commands_json.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <span>
 #include <utility>
 
 namespace isochron::app {
@@ -101,9 +99,8 @@ class Bytes {
 
 void expect_room(std::size_t bytes, const char* instead) {
     if (bytes > kLargestAnswer)
-        throw index::Error(
-            fmt::format("the answer has {} MiB, more than {}; {} writes it as a file", bytes >> 20,
-                        kLargestAnswer >> 20, instead));
+        throw index::Error("the answer has {} MiB, more than {}; {} writes it as a file",
+                           bytes >> 20, kLargestAnswer >> 20, instead);
 }
 
 /// What is asked of which array.

@@ -3,7 +3,6 @@
 
 #include "interaction/error.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -21,8 +20,8 @@ namespace {
 constexpr const char* kSignOfLife = "sign of life"; ///< id of requests for it
 
 [[noreturn]] void fail_silent(std::chrono::milliseconds patience) {
-    throw interaction::Error(
-        fmt::format("control socket: no answer within {} ms: the session hangs", patience.count()));
+    throw interaction::Error("control socket: no answer within {} ms: the session hangs",
+                             patience.count());
 }
 
 [[noreturn]] void fail_ended() {
@@ -33,8 +32,8 @@ std::string token_in(const std::filesystem::path& path) {
     std::ifstream file(path);
     std::string token;
     if (!std::getline(file, token))
-        throw interaction::Error(
-            fmt::format("{}: no token can be read there; --token-file names it", path.string()));
+        throw interaction::Error("{}: no token can be read there; --token-file names it",
+                                 path.string());
     return token;
 }
 
@@ -44,8 +43,8 @@ ControlClient::ControlClient(const ControlAddress& address, const std::filesyste
                              std::chrono::milliseconds patience)
     : socket_(connect_to(address)), patience_(patience) {
     if (!address.is_tcp() && !is_of_this_user(socket_.get()))
-        throw interaction::Error(
-            fmt::format("{}: a program of another user listens there", address.path.string()));
+        throw interaction::Error("{}: a program of another user listens there",
+                                 address.path.string());
     ControlRequest hello{.verb = ControlVerb::hello};
     if (address.is_tcp())
         hello.token = token_in(token_file.empty() ? control_token_file(address.port) : token_file);
@@ -141,9 +140,9 @@ ControlClient::Answer ControlClient::next_answer(bool of_a_frame) {
             if (std::exchange(frame, line.value("frame", std::uint64_t{0})) != frame)
                 shown = now;
             if (of_a_frame && now - shown > kFrames)
-                throw interaction::Error(fmt::format(
+                throw interaction::Error(
                     "control socket: the session lives, but has shown no frame for {} s",
-                    kFrames.count()));
+                    kFrames.count());
             continue;
         }
         if (!line.value("ok", false))

@@ -33,8 +33,7 @@ void expect_shallow_json(std::string_view text) {
         else if (!quoted && (text[i] == '}' || text[i] == ']'))
             --depth;
         if (depth > kDeepestRequest)
-            throw interaction::Error(
-                fmt::format("request: nested deeper than {} levels", kDeepestRequest));
+            throw interaction::Error("request: nested deeper than {} levels", kDeepestRequest);
     }
 }
 

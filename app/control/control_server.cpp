@@ -9,14 +9,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <new>
 #include <utility>
 
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace isochron::app {
@@ -35,7 +33,7 @@ void write_token(const std::filesystem::path& path, const std::string& token) {
     const std::string line = token + "\n";
     if (file.get() < 0 ||
         write(file.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size()))
-        throw interaction::Error(fmt::format("{}: cannot be written", path.string()));
+        throw interaction::Error("{}: cannot be written", path.string());
 }
 
 ControlServerOptions with_clock(ControlServerOptions options) {
@@ -205,12 +203,11 @@ void ControlServer::answer(Connection& client, const ControlRequest& request,
             throw interaction::Error(wrong.front());
         if (const auto& array = request.commands.array;
             array && !array->empty() && !file->array_called(*array))
-            throw interaction::Error(fmt::format("array: the index has no array {}", *array));
+            throw interaction::Error("array: the index has no array {}", *array);
         for (const auto& surface :
              request.commands.isosurfaces.value_or(std::vector<interaction::Isosurface>()))
             if (!surface.array.empty() && !file->array_called(surface.array))
-                throw interaction::Error(
-                    fmt::format("isosurfaces: the index has no array {}", surface.array));
+                throw interaction::Error("isosurfaces: the index has no array {}", surface.array);
         const std::uint64_t number = desk_.post(request.commands);
         if (number == 0)
             throw interaction::Error("busy: more commands wait than frames have taken; try again");
@@ -251,8 +248,7 @@ ControlServer::Found ControlServer::not_found(const Search& search, const std::s
 void ControlServer::add_search(Connection& client, const ControlRequest& request,
                                const std::string& id) {
     if (std::ranges::count(to_search_, client.name(), &Search::client) >= kMostSearches)
-        throw interaction::Error(
-            fmt::format("busy: {} searches wait already; try again", kMostSearches));
+        throw interaction::Error("busy: {} searches wait already; try again", kMostSearches);
     to_search_.push_back({client.name(), id, request, desk_.file(), desk_.shown()->state});
     client.waits.push_back({Unanswered::For::search, 0, id});
 }

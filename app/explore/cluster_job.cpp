@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -213,7 +212,7 @@ void prepare_walls(Config& config, const ClusterJob& job, bool emulated) {
         throw UsageError("--emulate shows every wall in one window: start it without mpirun");
     const std::string misfit = stereo::misfit(config.installation, job.size());
     if (!misfit.empty())
-        throw ConfigError(fmt::format("{}: {}", config.name, misfit));
+        throw ConfigError("{}: {}", config.name, misfit);
     stereo::add_console(config.installation, job.size());
 }
 

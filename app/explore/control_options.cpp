@@ -3,22 +3,16 @@
 
 #include "app/telling.h"
 
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <utility>
 
 namespace isochron::app {
 
 void add_control_option(Command& command, std::optional<std::string>& control) {
-    command
-        .option(
-            "--control", control,
-            "Open a socket through which your programs steer the session: `isochron tell`, or "
-            "isochron.connect() in Python. SOCKET is a path, or 127.0.0.1:PORT, which asks for a "
-            "token (default: control.sock in the user's runtime folder)")
-        .value_optional()
-        .type_name("[SOCKET]");
+    command.option(
+        "--control [SOCKET]", control,
+        "Open a socket through which your programs steer the session: `isochron tell`, or "
+        "isochron.connect() in Python. SOCKET is a path, or 127.0.0.1:PORT, which asks for a "
+        "token (default: control.sock in the user's runtime folder)");
 }
 
 void check_control(const std::optional<std::string>& control) {

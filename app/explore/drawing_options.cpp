@@ -7,11 +7,10 @@ namespace isochron::app {
 
 void add_shape_option(Command& command, std::optional<std::string>& shape) {
     command
-        .option("--shape", shape,
+        .option("--shape SHAPE", shape,
                 "Shape of quads and splats, instead of the configured one: plane (flat ellipses on "
                 "the surface) or voxel (the spheres of the paper)")
-        .one_of(words_of<render::CellShape>())
-        .type_name("SHAPE");
+        .one_of(words_of<render::CellShape>());
 }
 
 void set_shape(Config& config, const std::optional<std::string>& shape) {

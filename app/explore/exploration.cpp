@@ -9,6 +9,7 @@
 #include "app/explore/explored_data.h"
 #include "app/explore/kept_session.h"
 #include "app/explore/later_advice.h"
+#include "app/explore/link_tools.h"
 #include "app/explore/live_setup.h"
 #include "app/explore/loading.h"
 #include "app/explore/pattern_exploration.h"
@@ -38,8 +39,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <memory>
-#include <optional>
 #include <utility>
 
 namespace isochron::app {
@@ -311,6 +310,8 @@ void Exploration::set_start() {
         if (array > 0)
             linked.apply(session_->way_to_array(array), steps);
         session_->set_state(as_linked(std::move(linked), of_link_, *file_, link_screen()));
+        if (const std::string lost = lost_of_link(of_link_, *file_); !lost.empty())
+            print_note("{}", lost);
     }
     session_->set_state(start_from(session_->state(), options_, steps));
     show_models();

@@ -35,106 +35,83 @@ std::string footer() {
 } // namespace
 
 void add_explore_options(Command& command, ExploreOptions& options) {
+    command.option(
+        "files FILE", options.sources.files,
+        "Index that `isochron build` wrote. Or volume files, of which an index is made in "
+        "your cache folder. Without FILE, a window lets you choose");
     command
-        .option("files", options.sources.files,
-                "Index that `isochron build` wrote. Or volume files, of which an index is made in "
-                "your cache folder. Without FILE, a window lets you choose")
-        .type_name("FILE");
-    command
-        .option("--config", options.config,
+        .option("--config FILE", options.config,
                 fmt::format("Configuration: a TOML file, or the name of a shipped one: {}",
                             fmt::join(shipped_config_names(), ", ")))
-        .shows_default()
-        .type_name("FILE");
-    command
-        .option("--check-config", options.check_config,
-                "List the windows, screens, viewers and devices of this configuration and its "
-                "errors, and end")
-        .type_name("FILE");
-    command
-        .option("--picture", options.picture,
-                "With --check-config, draw a floor plan and elevations of the room, with walls, "
-                "eyes, trackers and data, into this file (.png, .tif, .jpg, .exr)")
-        .type_name("FILE");
+        .shows_default();
+    command.option("--check-config FILE", options.check_config,
+                   "List the windows, screens, viewers and devices of this configuration and its "
+                   "errors, and end");
+    command.option("--picture FILE", options.picture,
+                   "With --check-config, draw a floor plan and elevations of the room, with walls, "
+                   "eyes, trackers and data, into this file (.png, .tif, .jpg, .exr)");
     command.flag("--emulate", options.emulate,
                  "Show the whole installation in one window: the room from outside, with the "
                  "picture on every wall");
     command
         .option(
-            "--context", options.context,
+            "--context CONTEXT", options.context,
             "OpenGL context: glfw opens windows, egl serves where a headset is the only display")
-        .one_of({"glfw", "egl"})
-        .type_name("CONTEXT");
-    command.option("--stereo", options.stereo, "Stereo mode to begin with")
-        .one_of(words_of<stereo::StereoMode>())
-        .type_name("MODE");
-    command.option("--quality", options.quality, "Quality mode to begin with")
-        .one_of(interaction::all_names<interaction::QualityMode>())
-        .type_name("MODE");
+        .one_of({"glfw", "egl"});
+    command.option("--stereo MODE", options.stereo, "Stereo mode to begin with")
+        .one_of(words_of<stereo::StereoMode>());
+    command.option("--quality MODE", options.quality, "Quality mode to begin with")
+        .one_of(interaction::all_names<interaction::QualityMode>());
     command
         .option(
-            "--footprint", options.footprint,
+            "--footprint FOOTPRINT", options.footprint,
             "How cells are drawn once nothing moves: auto (the exact surface), gaussian, mesh or "
             "surface")
-        .one_of(words_of<SettledFootprint>(kSettledField))
-        .type_name("FOOTPRINT");
+        .one_of(words_of<SettledFootprint>(kSettledField));
     add_shape_option(command, options.shape);
     command
-        .option("--size", options.size,
+        .option("--size PIXELS PIXELS", options.size,
                 "Size of each window, or with --emulate of the window that shows the room")
-        .values(2)
-        .between(16, 16384)
-        .type_name("PIXELS PIXELS");
+        .between(16, 16384);
+    command.option("--isovalue VALUE", options.isovalue,
+                   "Isovalue to begin with, in the unit of the values");
+    command.option("--step STEP", options.step, "Step to begin with, from 0");
     command
-        .option("--isovalue", options.isovalue, "Isovalue to begin with, in the unit of the values")
-        .type_name("VALUE");
-    command.option("--step", options.step, "Step to begin with, from 0").type_name("STEP");
-    command
-        .option("--between", options.between,
+        .option("--between MODE", options.between,
                 "What to show between two steps: `hold` shows the step before, `blend` a blend of "
                 "both (key Ctrl + T)")
-        .one_of(interaction::all_names<interaction::BetweenSteps>())
-        .type_name("MODE");
-    command
-        .option("--model", options.models,
-                "Show the triangles of this file beside the surfaces, in the data's coordinates: "
-                ".stl, .ply, .obj, .vtp, .gltf, .glb; may be given several times")
-        .type_name("FILE");
+        .one_of(interaction::all_names<interaction::BetweenSteps>());
+    command.option(
+        "--model FILE", options.models,
+        "Show the triangles of this file beside the surfaces, in the data's coordinates: "
+        ".stl, .ply, .obj, .vtp, .gltf, .glb; may be given several times");
     command.flag("--follow", options.follow,
                  "Show the last step, and each new one that `build --append` adds (key End)");
     add_control_option(command, options.control);
-    command.option("--record", options.record, "Record the session in this file (JSON Lines)")
-        .type_name("FILE");
+    command.option("--record FILE", options.record, "Record the session in this file (JSON Lines)");
     command.flag("--force", options.force,
                  "Let --record replace a recording, and --report, --session and --picture any file "
                  "but one that is read; without this option they replace only a report, a session "
                  "and a picture");
-    command
-        .option(
-            "--session", options.session,
-            "Save the session in this file (NAME.isochron-session) instead of your state folder; "
-            "it is saved every 30 s and at the end")
-        .type_name("FILE");
+    command.option(
+        "--session FILE", options.session,
+        "Save the session in this file (NAME.isochron-session) instead of your state folder; "
+        "it is saved every 30 s and at the end");
     command.flag("--resume", options.resume,
                  "Continue the last session on these data, or the session in --session");
+    command.option(
+        "--story FILE", options.story,
+        "Tell the story in this file: NAME.isochron-story, a file of keys that have texts "
+        "(docs/FORMATS.md), or a session with such keys. A story that names its data is "
+        "opened alone, too, as FILE");
+    command.option("--report FILE", options.report,
+                   "Write the times of each frame's stages to this JSON file");
     command
-        .option("--story", options.story,
-                "Tell the story in this file: NAME.isochron-story, a file of keys that have texts "
-                "(docs/FORMATS.md), or a session with such keys. A story that names its data is "
-                "opened alone, too, as FILE")
-        .type_name("FILE");
-    command
-        .option("--report", options.report,
-                "Write the times of each frame's stages to this JSON file")
-        .type_name("FILE");
-    command
-        .option("--screenshots", options.screenshots,
+        .option("--screenshots FOLDER", options.screenshots,
                 "Folder for screenshots (key P); it is made where it is missing")
-        .shows_default()
-        .type_name("FOLDER");
-    command.option("--seconds", options.seconds, "End the session after this time")
-        .positive()
-        .type_name("SECONDS");
+        .shows_default();
+    command.option("--seconds SECONDS", options.seconds, "End the session after this time")
+        .positive();
     command.flag("--list-devices", options.list_devices,
                  "List the devices that the configuration names, and end; this needs no index");
     command.flag("--test-pattern", options.test_pattern,

@@ -3,7 +3,6 @@
 
 #include "app/config/check_config.h"
 #include "app/config/config_words.h"
-#include "app/config/shipped_configs.h"
 #include "app/config/tracker_setup.h"
 #include "app/explore/drawing_options.h"
 #include "app/frame/empty_picture.h"
@@ -44,9 +43,9 @@ std::uint32_t first_step(const ExploreOptions& options, std::size_t steps) {
 void refuse_to_replace_part_of(const std::filesystem::path& recording) {
     const std::string part = recording.string() + ".part";
     if (std::filesystem::exists(part))
-        throw index::Error(fmt::format("{}: exists already, a recording that was cut short and can "
-                                       "be replayed; --force replaces it",
-                                       part));
+        throw index::Error("{}: exists already, a recording that was cut short and can be "
+                           "replayed; --force replaces it",
+                           part);
 }
 
 } // namespace
@@ -95,10 +94,9 @@ Config configure(const ExploreOptions& options) {
         config.openxr.enabled &&
         config.rendering.context == stereo::ContextKind::egl; // shows without window
     if (config.rendering.context != stereo::ContextKind::glfw && !in_headset)
-        throw UsageError(
-            fmt::format("explore needs a window: --context glfw, not {} (egl only with a headset, "
-                        "[openxr] enabled = true); `isochron replay` draws pictures without one",
-                        stereo::name_of(config.rendering.context)));
+        throw UsageError("explore needs a window: --context glfw, not {} (egl only with a headset, "
+                         "[openxr] enabled = true); `isochron replay` draws pictures without one",
+                         stereo::name_of(config.rendering.context));
     stereo::OpenXrOptions& openxr = config.openxr.options;
     openxr.windowless = in_headset;
     openxr.near_plane = config.installation.near_plane;
@@ -109,18 +107,18 @@ Config configure(const ExploreOptions& options) {
 
 void check_start(const ExploreOptions& options, const index::IndexFile& file, std::size_t steps) {
     if (options.step && *options.step >= steps)
-        throw UsageError(fmt::format("--step: expected 0 to {}, got {}", steps - 1, *options.step));
+        throw UsageError("--step: expected 0 to {}, got {}", steps - 1, *options.step);
     for (const std::string& model : options.models) {
         std::error_code error;
         if (!index::is_model_name(model))
-            throw UsageError(fmt::format("--model: expected a file of {}, got {}",
-                                         index::model_extensions(), model));
+            throw UsageError("--model: expected a file of {}, got {}", index::model_extensions(),
+                             model);
         if (!index::is_model_series(model) && !std::filesystem::is_regular_file(model, error))
-            throw UsageError(fmt::format("--model: {}: there is no such file", model));
+            throw UsageError("--model: {}: there is no such file", model);
     }
     if (options.models.size() > interaction::kMostModels)
-        throw UsageError(fmt::format("--model: {} models, expected at most {}",
-                                     options.models.size(), interaction::kMostModels));
+        throw UsageError("--model: {} models, expected at most {}", options.models.size(),
+                         interaction::kMostModels);
     if (options.isovalue)
         warn_beyond(*options.isovalue, file.array(first_array(options, file)));
 }
@@ -223,6 +221,7 @@ stereo::Windows open_windows(const ExploreOptions& options, const Config& config
     const stereo::Installation& installation = config.installation;
     if (options.emulate) {
         stereo::ContextOptions room{.title = title, .vsync = config.rendering.vsync};
+        room.fits = room.scales = options.size.empty();
         if (!options.size.empty())
             room.size = {options.size[0], options.size[1]};
         return stereo::open_room(config.rendering.context, installation, room);

@@ -13,14 +13,11 @@
 #include "index/system/links/link.h"
 #include "index/system/user_folders.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <utility>
-#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -118,13 +115,13 @@ std::unique_ptr<Indexing> begin_indexing(const ExploreOptions& options, const Cl
     if (options.data || options.sources.files.empty())
         return nullptr;
     if (job.size() > 1)
-        throw UsageError(fmt::format("{}: no index, which a job of several processes needs: "
-                                     "isochron build makes one",
-                                     options.sources.files.front()));
+        throw UsageError(
+            "{}: no index, which a job of several processes needs: isochron build makes one",
+            options.sources.files.front());
     const auto folder = index::user_cache_folder();
     if (!folder)
-        throw UsageError("no folder for indexes: neither HOME nor XDG_CACHE_HOME is set; "
-                         "isochron build makes an index anywhere");
+        throw UsageError("no folder for indexes: neither HOME nor XDG_CACHE_HOME is set; isochron "
+                         "build makes an index anywhere");
     auto indexing = std::make_unique<Indexing>(options.sources, *folder, asks);
     // Nearly all data that cannot be read are refused here, before a window opens for them.
     indexing->wait_for_opening(std::chrono::milliseconds(500));

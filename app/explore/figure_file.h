@@ -25,18 +25,18 @@ struct FigurePanel {
 };
 
 struct FigureFile {
-    double width = 180;        ///< [mm] of the page
-    double dpi = 300;          ///< resolution of its pictures, and of a PNG or TIFF
-    double font_size = 8;      ///< [pt]
-    double margin = 2;         ///< [mm] on each side
-    double gap = 4;            ///< [mm] between panels
-    std::size_t columns = 0;   ///< panels beside each other; 0: two, of an only one one
+    double width = 180;   ///< [mm] of the page
+    double dpi = 300;     ///< resolution of its pictures, and of a PNG or TIFF
+    double font_size = 8; ///< [pt]
+    double margin = 2;    ///< [mm] on each side
+    double gap = 4;       ///< [mm] between panels
+    int version = 1;
+    unsigned columns = 0;      ///< panels beside each other; 0: two, of an only one one
     std::string letters = "a"; ///< `a`, `A`, `(a)` or `none`
     std::string caption;
     std::vector<FigurePanel> panels;
-    std::string text; ///< the whole file
-    std::map<std::string, std::string>
-        texts; ///< sessions and files of keys, by their names in it
+    std::string text;                         ///< the whole file
+    std::map<std::string, std::string> texts; ///< sessions and files of keys, by their names in it
 };
 
 inline constexpr std::size_t kMostPanels = 4;

@@ -22,7 +22,6 @@
 #include "app/version.h"
 #include "index/error.h"
 #include "index/system/input_file.h"
-#include "index/volume/time_unit.h"
 #include "interaction/error.h"
 #include "interaction/navigation/key_frames.h"
 #include "interaction/navigation/navigation.h"
@@ -38,7 +37,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <ranges>
 #include <utility>
@@ -122,8 +120,8 @@ class PanelDrawing {
                     refused.emplace_back(error.what());
                 }
             if (!refused.empty())
-                throw interaction::Error(fmt::format("{}: {} does not fit {}: {}", where_, what,
-                                                     data_.string(), fmt::join(refused, "; ")));
+                throw interaction::Error("{}: {} does not fit {}: {}", where_, what, data_.string(),
+                                         fmt::join(refused, "; "));
         };
         if (panel_.state) {
             expect_fits(*panel_.state, "the session");
@@ -277,9 +275,8 @@ class FigureLayout {
         const double cell =
             (figure_.width - 2 * figure_.margin - (columns - 1) * figure_.gap) / columns;
         if (cell < 4 * size_)
-            throw interaction::Error(
-                fmt::format("{}: width: expected room for {} columns, got {:g} mm", name_.string(),
-                            figure_.columns, figure_.width));
+            throw interaction::Error("{}: width: expected room for {} columns, got {:g} mm",
+                                     name_.string(), figure_.columns, figure_.width);
         double y = figure_.margin, row = 0;
         for (std::size_t i = 0; i < figure_.panels.size(); ++i) {
             const std::size_t column = i % figure_.columns;
@@ -393,10 +390,9 @@ class FigureLayout {
         const LegendRoom legend = legend_of(panel, first);
         const double width = cell - legend.width;
         if (width < 0.3 * cell)
-            throw interaction::Error(fmt::format("{}:{}: the legend leaves the picture {:.3g} mm; "
-                                                 "expected a wider figure, smaller letters or "
-                                                 "legend = false",
-                                                 name_.string(), panel.line, width));
+            throw interaction::Error("{}:{}: the legend leaves the picture {:.3g} mm; expected a "
+                                     "wider figure, smaller letters or legend = false",
+                                     name_.string(), panel.line, width);
         DrawnPanel drawn =
             drawing.draw(pixels_for(width), text, figure_.font_size, figure_.dpi, context_);
         made_.record.drawn_with = drawn.drawn_with;

@@ -117,8 +117,8 @@ std::optional<SavedSession> earlier_session(const std::optional<std::filesystem:
                                             bool resume) {
     const bool there = path && std::filesystem::exists(*path);
     if (resume && !there)
-        throw interaction::Error(fmt::format("--resume: there is no saved session for these data{}",
-                                             path ? " in " + path->string() : ""));
+        throw interaction::Error("--resume: there is no saved session for these data{}",
+                                 path ? " in " + path->string() : "");
     if (resume)
         return read_session(*path);
     if (there)

@@ -1,7 +1,8 @@
 // Reads and writes the settings in links.
 #include "app/explore/link_view.h"
 
-#include "render/passes/color_map.h"
+#include "app/explore/link_tools.h"
+#include "app/explore/link_words.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
@@ -16,41 +17,8 @@
 namespace isochron::app {
 namespace {
 
-using Words = std::map<std::string, std::string>;
-
 /// Half the height of the page's picture at distance 1: its camera sees 40 degrees.
 const double kPageHalf = std::tan(glm::radians(20.0));
-
-std::optional<double> number_of(std::string_view text) {
-    double value = 0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-    return !text.empty() && read.ec == std::errc() && read.ptr == text.data() + text.size() &&
-                   std::isfinite(value)
-               ? std::optional(value)
-               : std::nullopt;
-}
-
-std::vector<std::string_view> split(std::string_view text, char at) {
-    std::vector<std::string_view> words;
-    for (;;) {
-        const std::size_t end = std::min(text.find(at), text.size());
-        words.push_back(text.substr(0, end));
-        if (end == text.size())
-            return words;
-        text.remove_prefix(end + 1);
-    }
-}
-
-/// The numbers of a list; empty if one of them is none.
-std::vector<double> numbers_of(std::string_view text) {
-    std::vector<double> numbers;
-    for (const std::string_view word : split(text, ','))
-        if (const auto number = number_of(word))
-            numbers.push_back(*number);
-        else
-            return {};
-    return numbers;
-}
 
 std::optional<glm::vec3> color_of(std::string_view text) {
     std::uint32_t rgb = 0;
@@ -64,15 +32,6 @@ std::optional<glm::vec3> color_of(std::string_view text) {
 std::string hex_of(const glm::vec3& color) {
     const glm::ivec3 c = glm::ivec3(glm::round(glm::clamp(color, 0.0f, 1.0f) * 255.0f));
     return fmt::format("{:02x}{:02x}{:02x}", c.x, c.y, c.z);
-}
-
-const std::string& word_of(const Words& words, const std::string& name) {
-    static const std::string none;
-    const auto found = words.find(name);
-    return found == words.end() ? none : found->second;
-}
-std::optional<double> number_in(const Words& words, const std::string& name) {
-    return number_of(word_of(words, name));
 }
 
 /// How the screen shows what is in front of the head.
@@ -156,7 +115,7 @@ void add_surfaces(const std::string& text, const index::IndexFile& file,
 }
 
 /// `isovalue/color/opacity`, and the number of the array where it is not the shown one.
-std::string word_of(const interaction::Isosurface& surface, const index::IndexFile& file) {
+std::string surface_word(const interaction::Isosurface& surface, const index::IndexFile& file) {
     std::string word =
         fmt::format("{:.9g}/{}/{:.3g}", surface.isovalue, hex_of(surface.color), surface.opacity);
     if (!surface.of_shown_array())
@@ -164,76 +123,17 @@ std::string word_of(const interaction::Isosurface& surface, const index::IndexFi
     return word;
 }
 
-/// Slices, each as x/y/z and its normal; what is none is left out.
-std::vector<interaction::Plane> planes_of(const std::string& text) {
-    std::vector<interaction::Plane> planes;
-    for (const std::string_view one : split(text, ',')) {
-        std::string word(one);
-        std::ranges::replace(word, '/', ',');
-        const auto n = numbers_of(word);
-        if (n.size() != 6 || !(glm::length(glm::dvec3(n[3], n[4], n[5])) > 0))
-            continue;
-        planes.push_back({{n[0], n[1], n[2]}, glm::normalize(glm::dvec3(n[3], n[4], n[5]))});
-        if (planes.size() == interaction::kMostSlices)
-            break;
-    }
-    return planes;
-}
-
-/// Sets the map and its range. @param map, range names of the settings
-void color_as_linked(interaction::Coloring& coloring, const Words& settings, const std::string& map,
-                     const std::string& range) {
-    if (const auto known = render::color_map_from_name(word_of(settings, map)))
-        coloring.map = render::name_of(*known);
-    if (const auto ends = numbers_of(word_of(settings, range));
-        ends.size() == 2 && ends[0] < ends[1])
-        coloring.range = {ends[0], ends[1]};
-}
-
-void slice_as_linked(interaction::Slices& slices, const Words& settings,
-                     const index::IndexFile& file) {
-    const auto planes = planes_of(word_of(settings, "slices"));
-    if (planes.empty())
-        return;
-    slices = {.planes = planes};
-    slices.isolines = word_of(settings, "isolines") != "0";
-    slices.alone = word_of(settings, "alone") == "1";
-    if (const auto number = number_in(settings, "sliceof");
-        number && *number >= 0 && *number < static_cast<double>(file.arrays()))
-        slices.coloring.array = file.array(static_cast<std::size_t>(*number)).info().array;
-    color_as_linked(slices.coloring, settings, "slicemap", "slicerange");
-}
-
-/// The settings of slices; empty: none is seen.
-std::string words_of(const interaction::Slices& slices, const index::IndexFile& file) {
-    std::string list;
-    for (const auto& [point, normal, shown] : slices.planes)
-        if (shown)
-            list +=
-                fmt::format("{}{:.9g}/{:.9g}/{:.9g}/{:.7g}/{:.7g}/{:.7g}", list.empty() ? "" : ",",
-                            point.x, point.y, point.z, normal.x, normal.y, normal.z);
-    if (list.empty())
-        return {};
-    std::string words = fmt::format("&slices={}&slicemap={}", list, slices.coloring.map);
-    if (!slices.coloring.array.empty())
-        if (const auto number = file.array_called(slices.coloring.array))
-            words += fmt::format("&sliceof={}", *number);
-    if (const auto& range = slices.coloring.range)
-        words += fmt::format("&slicerange={:.9g},{:.9g}", (*range)[0], (*range)[1]);
-    return words + (slices.isolines ? "" : "&isolines=0") + (slices.alone ? "&alone=1" : "");
-}
-
 } // namespace
 
-std::size_t array_of_link(const Words& settings, const index::IndexFile& file) {
+std::size_t array_of_link(const LinkWords& settings, const index::IndexFile& file) {
     const auto number = number_in(settings, "array");
     return number && *number >= 0 && *number < static_cast<double>(file.arrays())
                ? static_cast<std::size_t>(*number)
                : 0;
 }
 
-ExplorerState as_linked(ExplorerState state, const Words& settings, const index::IndexFile& file,
-                        const LinkScreen& screen) {
+ExplorerState as_linked(ExplorerState state, const LinkWords& settings,
+                        const index::IndexFile& file, const LinkScreen& screen) {
     const std::size_t steps = file.info().steps();
     std::vector<interaction::Isosurface> surfaces;
     add_surfaces(word_of(settings, "surfaces"), file, surfaces);
@@ -267,23 +167,7 @@ ExplorerState as_linked(ExplorerState state, const Words& settings, const index:
         state.coloring.array = file.array(static_cast<std::size_t>(*number)).info().array;
         color_as_linked(state.coloring, settings, "map", "range");
     }
-    slice_as_linked(state.slices, settings, file);
-    if (const auto plane = numbers_of(word_of(settings, "plane")); plane.size() == 6) {
-        const glm::dvec3 normal(plane[3], plane[4], plane[5]);
-        if (glm::length(normal) > 0)
-            state.clip = {true, {plane[0], plane[1], plane[2]}, glm::normalize(normal)};
-    }
-    if (const auto clip = numbers_of(word_of(settings, "clip"));
-        clip.size() == 2 && (clip[0] == 0 || clip[0] == 1 || clip[0] == 2) && clip[1] >= 0 &&
-        clip[1] <= 1) {
-        const int axis = static_cast<int>(clip[0]);
-        glm::dvec4 at(0, 0, 0, 1), along(0);
-        at[axis] = clip[1] * (file.info().grid.vertices[axis] - 1);
-        along[axis] = 1;
-        const glm::dmat4 physical = file.info().grid.physical_from_index();
-        state.clip = {true, glm::dvec3(physical * at),
-                      glm::normalize(glm::dvec3(physical * along))};
-    }
+    tools_as_linked(state, settings, file);
     if (const auto view = numbers_of(word_of(settings, "view")); view.size() == 6)
         see_as_linked(state, view, numbers_of(word_of(settings, "up")), file, screen);
     return state;
@@ -308,7 +192,7 @@ std::string link_to(const std::string& address, const ExplorerState& state,
     for (std::size_t i = 0; i < state.isosurfaces.size(); ++i) {
         const interaction::Isosurface& each = state.isosurfaces[i];
         std::string& list = each.of_shown_array() ? surfaces : further;
-        list += (list.empty() ? "" : ",") + word_of(each, file);
+        list += (list.empty() ? "" : ",") + surface_word(each, file);
         if (!each.of_shown_array())
             continue;
         if (i == state.picked || count == 0) {
@@ -332,11 +216,7 @@ std::string link_to(const std::string& address, const ExplorerState& state,
     const glm::dmat3 upright = page_axes(glm::conjugate(seen.rotation) * back);
     if (glm::distance(up, upright[1]) > kTilted)
         link += fmt::format("&up={:.7g},{:.7g},{:.7g}", said.x, said.y, said.z);
-    if (const interaction::ClipPlane& clip = state.clip; clip.shown)
-        link +=
-            fmt::format("&plane={:.9g},{:.9g},{:.9g},{:.7g},{:.7g},{:.7g}", clip.point.x,
-                        clip.point.y, clip.point.z, clip.normal.x, clip.normal.y, clip.normal.z);
-    link += words_of(state.slices, file);
+    link += tool_words(state, file);
     if (state.coloring.by == interaction::ColorBy::value)
         if (const auto number = file.array_called(state.coloring.array)) {
             link += fmt::format("&colors={}&map={}", *number, state.coloring.map);

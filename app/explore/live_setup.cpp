@@ -19,10 +19,7 @@
 #include "index/system/user_folders.h"
 #include "interaction/navigation/key_frames.h"
 
-#include <fmt/format.h>
-
 #include <cerrno>
-#include <future>
 #include <map>
 #include <memory>
 #include <optional>

@@ -2,7 +2,6 @@
 #include "app/explore/loading.h"
 
 #include "app/command_line/cancel.h"
-#include "interaction/input/window_event.h"
 
 #include <fmt/format.h>
 

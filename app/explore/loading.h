@@ -10,8 +10,6 @@
 #include "stereo/windows.h"
 
 #include <chrono>
-#include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <future>
 #include <memory>

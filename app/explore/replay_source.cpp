@@ -8,8 +8,6 @@
 #include "app/telling.h"
 #include "index/system/links/link.h"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 
 namespace isochron::app {
@@ -17,71 +15,59 @@ namespace isochron::app {
 namespace fs = std::filesystem;
 
 void add_replay_source(Command& command, ReplaySource& source, const std::string& what) {
-    command.option("recording", source.recording, what).required().type_name("FILE");
-    command
-        .option("--data", source.data,
-                "Index to use instead of the recorded one; a relative path is tried from the "
-                "recording's folder, too")
-        .type_name("INDEX");
+    command.option("recording FILE", source.recording, what).required();
+    command.option("--data INDEX", source.data,
+                   "Index to use instead of the recorded one; a relative path is tried from the "
+                   "recording's folder, too");
     command.flag("--any-data", source.any_data,
                  "Accept data that differ from the recorded ones, as their hashes tell");
     command
-        .option("--size", source.size,
+        .option("--size PIXELS PIXELS", source.size,
                 "Size of each window's pictures, or with --emulate of the picture of the room "
                 "(default: as recorded)")
-        .values(2)
-        .between(16, 16384)
-        .type_name("PIXELS PIXELS");
+        .between(16, 16384);
     command
-        .option("--samples", source.samples,
+        .option("--samples COUNT", source.samples,
                 "Number of samples per pixel (default: as configured, or 4)")
-        .between(1, 64)
-        .type_name("COUNT");
-    command
-        .option("--model", source.models,
-                "Let the recording show this file of triangles, though it lies outside of the "
-                "folders of recording and data; may be given several times")
-        .type_name("FILE");
+        .between(1, 64);
+    command.option("--model FILE", source.models,
+                   "Let the recording show this file of triangles, though it lies outside of the "
+                   "folders of recording and data; may be given several times");
     command.flag("--emulate", source.emulate,
                  "Show the whole room from outside, with the picture on every wall");
-    command.option("--stereo", source.stereo, "Stereo mode to use instead of the recorded one")
-        .one_of(words_of<stereo::StereoMode>())
-        .type_name("MODE");
-    command.option("--quality", source.quality, "Quality mode to use instead of the recorded one")
-        .one_of(interaction::all_names<interaction::QualityMode>())
-        .type_name("MODE");
+    command.option("--stereo MODE", source.stereo, "Stereo mode to use instead of the recorded one")
+        .one_of(words_of<stereo::StereoMode>());
+    command
+        .option("--quality MODE", source.quality, "Quality mode to use instead of the recorded one")
+        .one_of(interaction::all_names<interaction::QualityMode>());
     command
         .option(
-            "--footprint", source.footprint,
+            "--footprint FOOTPRINT", source.footprint,
             "How cells are drawn in a picture at rest, instead of the configured way: auto (the "
             "exact surface), gaussian, mesh or surface")
-        .one_of(words_of<SettledFootprint>(kSettledField))
-        .type_name("FOOTPRINT");
+        .one_of(words_of<SettledFootprint>(kSettledField));
     command.flag("--ray", source.ray,
                  "Also show the ray of the wand and what the cursor points at");
     command.flag("--caption", source.caption,
                  "Add isovalue, time, axes and a scale bar to the pictures");
     command
-        .option("--picture-background", source.background,
+        .option("--picture-background BACKGROUND", source.background,
                 "Background of the pictures instead of the recorded one. Movies are white where "
                 "it is transparent")
-        .one_of(interaction::all_names<interaction::WrittenBackground>())
-        .type_name("BACKGROUND");
+        .one_of(interaction::all_names<interaction::WrittenBackground>());
     command
-        .option("--dpi", source.dpi, "Pixels per inch that the picture files state (default: none)")
-        .between(1.0, interaction::kMostDpi)
-        .type_name("DPI");
+        .option("--dpi DPI", source.dpi,
+                "Pixels per inch that the picture files state (default: none)")
+        .between(1.0, interaction::kMostDpi);
     add_shape_option(command, source.shape);
+    command.option(
+        "--config FILE", source.config,
+        "Configuration to use instead of the recorded one: a TOML file, or the name of a "
+        "shipped configuration");
     command
-        .option("--config", source.config,
-                "Configuration to use instead of the recorded one: a TOML file, or the name of a "
-                "shipped configuration")
-        .type_name("FILE");
-    command
-        .option("--context", source.context,
+        .option("--context CONTEXT", source.context,
                 "OpenGL context to draw with (default: egl, or glfw with --live)")
-        .one_of({"glfw", "egl", "osmesa"})
-        .type_name("CONTEXT");
+        .one_of({"glfw", "egl", "osmesa"});
 }
 
 Config config_of(const ReplaySource& options, const interaction::RecordingHeader& header) {
@@ -125,18 +111,17 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
         path = (fs::path(options.recording).parent_path() / header.data).string();
         if (!fs::exists(path, ignored))
             throw interaction::Error(
-                fmt::format("{}: recorded on {}, which was not found; give its path with --data",
-                            options.recording, header.data));
+                "{}: recorded on {}, which was not found; give its path with --data",
+                options.recording, header.data);
     }
     auto file = open_index_to_show(path, config.memory.cache_bytes());
     if (const std::string note = other_reading(options.recording, header.reading, *file);
         !note.empty())
         print_note("{}", note);
     if (!options.any_data && !other_data(header, *file).empty())
-        throw interaction::Error(
-            fmt::format("{}: recorded on other data: expected hash {}, {} has {} "
-                        "(--any-data replays all the same)",
-                        options.recording, header.data_hash, path, data_hash_of(*file)));
+        throw interaction::Error("{}: recorded on other data: expected hash {}, {} has {} "
+                                 "(--any-data replays all the same)",
+                                 options.recording, header.data_hash, path, data_hash_of(*file));
     return file;
 }
 

@@ -20,7 +20,6 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
-#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -34,8 +33,8 @@ void play_steps(const SeriesMovie& movie, std::size_t steps, interaction::Comman
     interaction::PlaybackState playback = state.playback.value_or(interaction::PlaybackState{});
     playback.every = chosen.size() > 1 ? chosen[1] - chosen[0] : 1;
     if (playback.every > interaction::kMostSkipped)
-        throw UsageError(fmt::format("--steps: a movie takes every {}th step at most, got {}",
-                                     interaction::kMostSkipped, movie.steps));
+        throw UsageError("--steps: a movie takes every {}th step at most, got {}",
+                         interaction::kMostSkipped, movie.steps);
     state.playback = playback;
 }
 
@@ -48,8 +47,8 @@ std::vector<interaction::KeyFrame> turn(const Session& session, const index::Ser
                                         const SeriesMovie& movie) {
     const auto steps = steps_or_all(movie.steps, "--steps", info.steps());
     if (steps.size() > 1 && steps[1] != steps[0] + 1)
-        throw UsageError(fmt::format("--turn: all steps pass, expected --steps FIRST:LAST, got {}",
-                                     movie.steps));
+        throw UsageError("--turn: all steps pass, expected --steps FIRST:LAST, got {}",
+                         movie.steps);
     return interaction::turn_keys(
         session.state(), physical_center(info.grid), index::Instant(steps.front()),
         index::Instant(movie.film == "turn" ? steps.front() : steps.back()),
@@ -70,8 +69,8 @@ void expect_fit(const std::vector<interaction::KeyFrame>& keys, const std::strin
                 refused.emplace_back(error.what());
             }
         if (!refused.empty())
-            throw interaction::Error(fmt::format("{}: key {} does not fit the data: {}", path,
-                                                 i + 1, fmt::join(refused, "; ")));
+            throw interaction::Error("{}: key {} does not fit the data: {}", path, i + 1,
+                                     fmt::join(refused, "; "));
     }
 }
 
@@ -118,12 +117,12 @@ interaction::Recording steps_seen(Session& session, const Config& config,
         expect_fit(keys, movie.keys, session, info.steps());
         constexpr double kMostFrames = 1 << 20;
         if (const double frames = interaction::seconds_of(keys) * rate; frames > kMostFrames)
-            throw UsageError(fmt::format("--rate: a film has at most {:.0f} frames, got {:.4g}",
-                                         kMostFrames, frames));
+            throw UsageError("--rate: a film has at most {:.0f} frames, got {:.4g}", kMostFrames,
+                             frames);
         if (movie.titles && !interaction::has_titles(keys))
-            throw interaction::Error(fmt::format(
+            throw interaction::Error(
                 "{}: --titles: expected a key with a \"name\" or a \"text\", there is none",
-                movie.keys));
+                movie.keys);
         recording = film_of_keys(session, header, keys, rate, movie.titles);
     } else {
         PictureNote view = session.note();

@@ -50,8 +50,8 @@ std::vector<interaction::KeyFrame> keys_in(const std::string& text, const std::s
         return interaction::keys_from(text, name);
     auto keys = session_in(text, name).state.keys.value_or(std::vector<interaction::KeyFrame>());
     if (keys.empty())
-        throw interaction::Error(
-            fmt::format("{}: a session without keys: Ctrl + M in `explore` makes them", name));
+        throw interaction::Error("{}: a session without keys: Ctrl + M in `explore` makes them",
+                                 name);
     return interaction::keys_from(interaction::keys_text(keys), name); // in order
 }
 
@@ -62,15 +62,13 @@ StoryFile story_in(const std::string& text, const std::string& name) {
     else
         story.keys = interaction::keys_from(text, name, &story.data);
     if (interaction::story_step(story.keys, 0).of == 0)
-        throw interaction::Error(
-            fmt::format("{}: no story: expected a key with a \"text\", got {} without any", name,
-                        story.keys.size()));
+        throw interaction::Error("{}: no story: expected a key with a \"text\", got {} without any",
+                                 name, story.keys.size());
     for (std::size_t i = 0; i < story.keys.size(); ++i)
         if (const auto& models = story.keys[i].models; models && !models->empty())
             throw interaction::Error(
-                fmt::format("{}: key {}: models: a story opens no other files: expected none, got "
-                            "{}",
-                            name, i + 1, models->size()));
+                "{}: key {}: models: a story opens no other files: expected none, got {}", name,
+                i + 1, models->size());
     return story;
 }
 
@@ -80,8 +78,8 @@ StoryFile read_story(const fs::path& file) {
         return story_in(index::read_text(file, kLargestStory), name);
     const auto bytes = index::open_bytes(file);
     if (bytes->size() > kLargestStory)
-        throw interaction::Error(fmt::format("{}: no story: expected at most {} bytes, got {}",
-                                             name, kLargestStory, bytes->size()));
+        throw interaction::Error("{}: no story: expected at most {} bytes, got {}", name,
+                                 kLargestStory, bytes->size());
     std::string text(bytes->size(), '\0');
     bytes->read(0, std::as_writable_bytes(std::span(text)));
     return story_in(text, name);
@@ -97,29 +95,27 @@ std::string data_of_story(const fs::path& file) {
     const std::string by_hand =
         fmt::format("isochron explore INDEX --story {}", index::shell_word(name));
     if (data.empty())
-        throw interaction::Error(
-            fmt::format("{}: it names no data: expected \"data\": \"NAME.isochron\"; {} shows it "
-                        "on an index of yours",
-                        name, by_hand));
+        throw interaction::Error("{}: it names no data: expected \"data\": \"NAME.isochron\"; {} "
+                                 "shows it on an index of yours",
+                                 name, by_hand);
     if (index::is_link(data)) {
         if (agrees(fmt::format("{} is about data at {}: open them?", name, data)))
             return data;
-        throw interaction::Error(fmt::format("{}: its data are behind an address, which nobody has "
-                                             "agreed to: isochron explore {} --story {} opens them",
-                                             name, index::shell_word(data),
-                                             index::shell_word(name)));
+        throw interaction::Error("{}: its data are behind an address, which nobody has agreed to: "
+                                 "isochron explore {} --story {} opens them",
+                                 name, index::shell_word(data), index::shell_word(name));
     }
     if (!is_plain(data))
-        throw interaction::Error(fmt::format("{}: data: expected the name of an index in the same "
-                                             "folder, got {}; {} shows the story on any index",
-                                             name, data, by_hand));
+        throw interaction::Error("{}: data: expected the name of an index in the same folder, got "
+                                 "{}; {} shows the story on any index",
+                                 name, data, by_hand);
     const fs::path beside = file.parent_path() / data;
     std::error_code ignored;
     if (!fs::exists(beside, ignored) || !index::is_index(beside))
-        throw interaction::Error(
-            fmt::format("{}: data: expected an index in the same folder, got "
-                        "{}, which is {}; {} shows the story on any index",
-                        name, data, fs::exists(beside, ignored) ? "none" : "not there", by_hand));
+        throw interaction::Error("{}: data: expected an index in the same folder, got {}, which is "
+                                 "{}; {} shows the story on any index",
+                                 name, data, fs::exists(beside, ignored) ? "none" : "not there",
+                                 by_hand);
     return beside.string();
 }
 

@@ -10,7 +10,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <sstream>
 #include <string>
 
@@ -60,9 +59,7 @@ void remember_window_size(const glm::ivec2& size) {
     try {
         index::make_folder(path->parent_path());
         const std::string text = fmt::format("{} {}\n", size.x, size.y);
-        index::NewFile file(*path);
-        file.write_at(0, std::as_bytes(std::span(text)));
-        file.commit();
+        index::write_file(*path, text);
     } catch (const index::Error&) { // then it is not remembered
     }
 }

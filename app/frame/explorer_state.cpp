@@ -14,7 +14,6 @@
 #include <glm/vector_relational.hpp>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <numeric>

@@ -2,13 +2,11 @@
 #include "app/frame/frame_log.h"
 
 #include "app/frame/late_frame.h"
-#include "app/version.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -59,7 +59,7 @@ struct FrameCells {
 
 /// How long the stages of the frame took, in their order.
 struct FrameTimes {
-    Milliseconds search{0}, gather{0}; ///< time of the shown set, on the worker: cells, bricks
+    Milliseconds search{0}, gather{0}; ///< times of the shown set, on the worker
     Milliseconds wait{0};              ///< for the worker; fixed-step replay only
     Milliseconds upload{0}, draw{0}, present{0}, total{0};
     Milliseconds barrier{0};   ///< between draw and present: until all processes drew

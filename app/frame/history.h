@@ -26,11 +26,12 @@ std::string words_for_way(const ExplorerState& now, const interaction::Commands*
 
 /// Depends only on the frames that are added, so a replay undoes as the session did.
 ///
-/// A drag is one step: changes of the same settings by dragging count together if they follow one
+/// A drag is one change: changes of the same settings by dragging count together if they follow one
 /// another closely or a button stays pressed. Time steps while playing do not count.
 class History {
   public:
-    static constexpr std::size_t kMost = 200; ///< most steps kept; the oldest are dropped
+    static constexpr std::size_t kMost =
+        200; ///< changes that can be undone; older ones are dropped
 
     /// Adds one frame. @param commands led from `before` to `after`
     void add(const ExplorerState& before, const ExplorerState& after,

@@ -16,7 +16,7 @@ namespace isochron::app {
 struct StepSurvey {
     static constexpr std::size_t kBins = 256;
 
-    /// The values are all values of the step; else those of a coarser level of detail, whose range is
+    /// All values of the step were surveyed; false: those of a coarser level of detail, whose range is
     /// a little narrower.
     bool whole = false;
     /// Range of the finite scaled values; `low` is above `high` if there are none.

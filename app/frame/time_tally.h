@@ -13,8 +13,8 @@ struct TimeSummary {
 };
 TimeSummary summarize(std::vector<double> milliseconds);
 
-/// Counts times in steps of one percent, from a microsecond to a quarter of an hour: any number of
-/// times takes 16 KiB.
+/// Counts times in bins that are one percent wide, from a microsecond to a quarter of an hour: any
+/// number of times takes 16 KiB.
 class TimeTally {
   public:
     void add(double milliseconds);
@@ -22,7 +22,7 @@ class TimeTally {
     TimeSummary summary() const;
 
   private:
-    std::vector<std::uint64_t> counts_; ///< by step; empty before the first time
+    std::vector<std::uint64_t> counts_; ///< by bin; empty before the first time
     std::uint64_t all_ = 0;
     double worst_ = 0;
 };

@@ -6,7 +6,6 @@
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <span>
@@ -80,9 +79,9 @@ struct Destination {
             return true;
         if (force)
             return false;
-        throw index::Error(fmt::format("{}: is another series than {}; remove it or choose another "
-                                       "folder, or --force replaces it",
-                                       pvd().string(), recipe.dump()));
+        throw index::Error("{}: is another series than {}; remove it or choose another folder, or "
+                           "--force replaces it",
+                           pvd().string(), recipe.dump());
     }
 
     /// @throws Error when a file that would be written is there, and nothing says that it is of this
@@ -98,16 +97,14 @@ struct Destination {
     static void refuse(const fs::path& file) {
         std::error_code ignored;
         if (fs::exists(file, ignored))
-            throw index::Error(fmt::format("{}: exists and is not of this series: expected a new "
-                                           "name; --force replaces it",
-                                           file.string()));
+            throw index::Error(
+                "{}: exists and is not of this series: expected a new name; --force replaces it",
+                file.string());
     }
 
     void write_note() const {
         const std::string text = recipe.dump(2) + "\n";
-        index::NewFile file(note());
-        file.write_at(0, std::as_bytes(std::span(text)));
-        file.commit();
+        index::write_file(note(), text);
     }
 };
 

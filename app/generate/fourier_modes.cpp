@@ -4,7 +4,6 @@
 #include "app/generate/random_numbers.h"
 #include "index/system/parallel.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <complex>

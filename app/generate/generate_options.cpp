@@ -31,18 +31,15 @@ add_series(Command& generate_command, const std::string& description, const std:
     command.examples({"isochron generate " + name + " -o " + name, short_one});
     auto request = std::make_shared<Request<Series>>();
     command
-        .option("-o,--output,--out", request->dir,
+        .option("-o,--output,--out FOLDER", request->dir,
                 "Folder for the files; it is made where it is missing")
-        .required()
-        .type_name("FOLDER");
-    command.option("--type", request->type, "Type of the values, where u8 rounds them")
+        .required();
+    command.option("--type TYPE", request->type, "Type of the values, where u8 rounds them")
         .one_of({"f32", "u8"})
-        .shows_default()
-        .type_name("TYPE");
-    command.option("--step-count,--steps", request->series.steps, "Number of steps")
+        .shows_default();
+    command.option("--step-count,--steps COUNT", request->series.steps, "Number of steps")
         .between(1, 100000)
-        .shows_default()
-        .type_name("COUNT");
+        .shows_default();
     command.flag("--force", request->force,
                  "Replace files that exist, of another series or of anything else");
     command.on_run([command, request, run] {
@@ -55,13 +52,11 @@ add_series(Command& generate_command, const std::string& description, const std:
 template <class Series>
 void add_cube_options(Command& command, const std::shared_ptr<Request<Series>>& request,
                       std::size_t largest) {
-    command.option("--seed", request->series.seed, "Seed of the random numbers")
-        .shows_default()
-        .type_name("NUMBER");
-    command.option("--size", request->series.size, "Number of vertices along each axis")
+    command.option("--seed NUMBER", request->series.seed, "Seed of the random numbers")
+        .shows_default();
+    command.option("--size COUNT", request->series.size, "Number of vertices along each axis")
         .between(std::size_t{16}, largest)
-        .shows_default()
-        .type_name("COUNT");
+        .shows_default();
 }
 
 } // namespace
@@ -82,17 +77,15 @@ void add_generate_options(Command& program, const Run& run) {
         "Vorticity magnitude of random Fourier modes, which makes turbulence of any size quickly",
         "isochron generate fourier -o small --size 32 --step-count 2 --type u8", run);
     add_cube_options(fourier, modes, 1024);
-    fourier.option("--modes", modes->series.modes, "Number of modes")
+    fourier.option("--modes COUNT", modes->series.modes, "Number of modes")
         .between(std::size_t{1}, std::size_t{4096})
-        .shows_default()
-        .type_name("COUNT");
+        .shows_default();
     fourier
-        .option("--longest", modes->series.longest,
+        .option("--longest COUNT", modes->series.longest,
                 "Longest wave vector of a mode, as the number of waves along an axis: at most half "
                 "of --size. A larger number makes a rougher field")
         .between(2, 512)
-        .shows_default()
-        .type_name("COUNT");
+        .shows_default();
 }
 
 } // namespace isochron::app

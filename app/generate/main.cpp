@@ -5,7 +5,6 @@
 #include "app/generate/generate_options.h"
 #include "app/telling.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <string_view>

@@ -21,8 +21,8 @@ AskedBuild::AskedBuild(const BuildArguments& asked, index::Team& team)
     std::error_code ignored;
     if (!fs::exists(asked.out, ignored))
         throw index::MissingFile(
-            fmt::format("{}: there is no index to append to yet; build it once without --append",
-                        asked.out.string()));
+            "{}: there is no index to append to yet; build it once without --append",
+            asked.out.string());
     team_.together([&] { file_.emplace(asked.out, team_.rank() == 0); });
     team_.together([&] {
         held_ = index::IndexFile::open(asked.out);
@@ -73,8 +73,7 @@ std::string AskedBuild::write(const index::Progress& progress) {
         }
         held_ = index::build_index(*sources_.volume, arguments_.out, options_, progress, team_);
     } catch (const std::bad_alloc&) {
-        throw index::Error(
-            fmt::format("{}: there is not enough memory to build it", arguments_.out.string()));
+        throw index::Error("{}: there is not enough memory to build it", arguments_.out.string());
     }
     return reason;
 }

@@ -43,7 +43,7 @@ std::vector<std::uint64_t> numbers_of(std::string_view text, const std::string& 
                                       const std::string& expected) {
     if (auto numbers = whole_numbers(text, ":,"))
         return *std::move(numbers);
-    throw UsageError(fmt::format("{} {}, expected {}", option, text, expected));
+    throw UsageError("{} {}, expected {}", option, text, expected);
 }
 
 /// `X0:X1,Y0:Y1,Z0:Z1`, both ends named.
@@ -55,7 +55,7 @@ std::array<std::array<std::uint32_t, 2>, 3> crop_of(const std::string& text) {
     const auto numbers = numbers_of(text, "--crop", expected);
     std::array<std::array<std::uint32_t, 2>, 3> crop{};
     if (form != ":,:,:" || std::ranges::any_of(numbers, [](auto n) { return n > 65536; }))
-        throw UsageError(fmt::format("--crop {}, expected {}", text, expected));
+        throw UsageError("--crop {}, expected {}", text, expected);
     for (std::size_t i = 0; i < 6; ++i)
         crop[i / 2][i % 2] = static_cast<std::uint32_t>(numbers[i]);
     return crop;
@@ -68,7 +68,7 @@ std::array<std::uint32_t, 3> stride_of(const std::string& text) {
         numbers.resize(3, numbers.front());
     if (numbers.size() != 3 || text.find(':') != text.npos ||
         std::ranges::any_of(numbers, [](auto n) { return n < 1 || n > 65536; }))
-        throw UsageError(fmt::format("--stride {}, expected {}", text, expected));
+        throw UsageError("--stride {}, expected {}", text, expected);
     return {static_cast<std::uint32_t>(numbers[0]), static_cast<std::uint32_t>(numbers[1]),
             static_cast<std::uint32_t>(numbers[2])};
 }
@@ -79,7 +79,7 @@ std::array<std::uint64_t, 3> steps_of_text(const std::string& text) {
     const auto numbers = numbers_of(text, "--steps", expected);
     if (numbers.size() > 3 || text.find(',') != text.npos ||
         (numbers.size() == 3 && numbers[2] == 0))
-        throw UsageError(fmt::format("--steps {}, expected {}", text, expected));
+        throw UsageError("--steps {}, expected {}", text, expected);
     return {numbers[0], numbers.size() > 1 ? numbers[1] : numbers[0],
             numbers.size() == 3 ? numbers[2] : 1};
 }
@@ -119,16 +119,16 @@ BuildArguments with_path_within(BuildArguments arguments) {
     if (arguments.all_arrays && !arguments.arrays.empty())
         throw UsageError("--all-arrays and --array: expected one of them, not both");
     if (several && arguments.read.component)
-        throw UsageError("--component: with several arrays add it to a name: --array "
-                         "velocity.magnitude");
+        throw UsageError(
+            "--component: with several arrays add it to a name: --array velocity.magnitude");
     if (several && arguments.read.value_unit)
         throw UsageError("--value-unit: expected with one array only");
     if (!arguments.arrays.empty())
         arguments.read.array = arguments.arrays.front();
     const auto path = take_path_within(arguments.files);
     if (path && arguments.read.array)
-        throw UsageError(fmt::format("--array {} and {} in the name of a file: expected one",
-                                     *arguments.read.array, *path));
+        throw UsageError("--array {} and {} in the name of a file: expected one",
+                         *arguments.read.array, *path);
     if (path)
         arguments.read.array = path;
     return arguments;
@@ -175,8 +175,8 @@ index::TierSet tiers_of(const std::string& list) {
         const auto tier =
             index::tier_from_name(index::is_former_tier(name) ? std::string_view("bricks") : name);
         if (!tier)
-            throw UsageError(fmt::format("--tiers: {}: expected none, or some of {}", name,
-                                         fmt::join(index::kTierNames, ",")));
+            throw UsageError("--tiers: {}: expected none, or some of {}", name,
+                             fmt::join(index::kTierNames, ","));
         tiers = tiers.with(*tier);
     }
     return tiers;
@@ -267,13 +267,12 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
     const char* reading = "Reading";
     command
         .option(
-            "--array", arguments.arrays,
+            "--array NAME", arguments.arrays,
             "Array to read, where the files hold several. May be given several times: the index "
             "then holds each of these arrays. `velocity.magnitude` is a component of an array, "
             "'u*' stands for all arrays whose names match, and u,v,w makes one vector of three "
             "arrays")
         .repeatable()
-        .type_name("NAME")
         .group(reading);
     command
         .flag("--all-arrays", arguments.all_arrays,
@@ -282,11 +281,10 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .group(reading);
     command
         .option(
-            "--component", read.component,
+            "--component COMPONENT", read.component,
             "Component of a vector array: its number from 0, or `magnitude`. Or a field that is "
             "computed: the length of the `gradient` of a scalar, the length of the `vorticity` "
             "of a vector, or the `q-criterion` of a vector")
-        .type_name("COMPONENT")
         .group(reading);
     command
         .flag("--allow-surplus", read.allow_surplus,
@@ -297,16 +295,13 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
               "Read the fourth axis, which is not x, y or z, as time, whatever the file says of it")
         .group(reading);
     command
-        .option("--member", read.member,
+        .option("--member NUMBER", read.member,
                 "Number of the ensemble member to read, from 0, where files hold several members")
-        .type_name("NUMBER")
         .group(reading);
     command
-        .option("--resample", arguments.resample,
+        .option("--resample NX NY NZ", arguments.resample,
                 "Interpolate a rectilinear, curvilinear or unstructured grid onto a regular grid "
                 "with this many vertices along x, y and z")
-        .values(3)
-        .type_name("NX NY NZ")
         .between(2u, 65537u)
         .group(reading);
     command
@@ -321,12 +316,11 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
               "date (2020-01-02, 20200102T0600)")
         .group(reading);
     command
-        .option("--dates", arguments.dates,
+        .option("--dates ORDER", arguments.dates,
                 "Order of day and month in dates whose year is last, in names and in files: "
                 "01-02-2020 is the first of February (dmy) or January 2 (mdy)")
         .one_of({std::string(word_of(index::DayMonth::day_first)),
                  std::string(word_of(index::DayMonth::month_first))})
-        .type_name("ORDER")
         .group("Reading");
     command
         .flag("--keep-first", read.keep_first,
@@ -335,125 +329,108 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .group(reading);
     command
         .option(
-            "--crop", arguments.crop,
+            "--crop X0:X1,Y0:Y1,Z0:Z1", arguments.crop,
             "Read a part of the grid: the numbers of its first and last vertex along each axis, "
             "from 0")
-        .type_name("X0:X1,Y0:Y1,Z0:Z1")
         .group(reading);
     command
         .option(
-            "--stride", arguments.stride,
+            "--stride COUNT[,COUNT,COUNT]", arguments.stride,
             "Read every second vertex (2), or every Nth, along all axes; 2,2,1 says it for each "
             "axis")
-        .type_name("COUNT[,COUNT,COUNT]")
         .group(reading);
     command
-        .option("--steps", arguments.steps,
+        .option("--steps FIRST:LAST[:STRIDE]", arguments.steps,
                 "Read some of the steps, numbered from 0: `7`, `0:63` for 0 to 63, or `0:63:4` for "
                 "every fourth of them")
-        .type_name("FIRST:LAST[:STRIDE]")
         .group(reading);
     command
-        .option("--spacing", arguments.spacing,
+        .option("--spacing SX SY SZ", arguments.spacing,
                 "Distance between vertices along each axis, in the unit of length (default: from "
                 "the files, or 1 1 1)")
-        .values(3)
-        .type_name("SX SY SZ")
         .positive()
         .group(reading);
     command
-        .option("--origin", arguments.origin,
+        .option("--origin OX OY OZ", arguments.origin,
                 "Position of the first vertex, in the unit of length (default: from the files, or "
                 "0 0 0)")
-        .values(3)
-        .type_name("OX OY OZ")
         .group(reading);
     command
         .option(
-            "--time-step", read.time_step,
+            "--time-step TIME", read.time_step,
             "Time from one step to the next, in the unit of time (default: from the files, or 1)")
         .positive()
-        .type_name("TIME")
         .group(reading);
     for (auto& [name, unit, help] :
          {std::tuple<const char*, std::optional<std::string>&, const char*>{
-              "--length-unit", read.length_unit, "Unit of positions and distances, such as mm"},
-          {"--time-unit", read.time_unit, "Unit of times, such as s"},
-          {"--value-unit", read.value_unit, "Unit of the values, such as K"}})
-        command.option(name, unit, help).type_name("UNIT").group(reading);
+              "--length-unit UNIT", read.length_unit,
+              "Unit of positions and distances, such as mm"},
+          {"--time-unit UNIT", read.time_unit, "Unit of times, such as s"},
+          {"--value-unit UNIT", read.value_unit, "Unit of the values, such as K"}})
+        command.option(name, unit, help).group(reading);
     command
-        .option("--allow", arguments.allowed,
+        .option("--allow FOLDER", arguments.allowed,
                 "Folder whose files may be read where a given file names them, as links of HDF5, "
                 "XDMF and .pvd do. Without this option, only files beside the given one are read. "
                 "May be given several times")
         .repeatable()
         .existing_folder()
-        .type_name("FOLDER")
         .group(reading);
     command
-        .option("--patience", arguments.patience,
+        .option("--patience SECONDS", arguments.patience,
                 "Give up a file whose reader has done nothing for this long; each megabyte of the "
                 "file adds a second, and waiting for a local disk does not count")
         .between(1.0, 86400.0)
         .shows_default()
-        .type_name("SECONDS")
         .group(reading);
 
     const char* colors = "Colors";
     const Option color = command
-                             .option("--color-by,--color", arguments.color,
+                             .option("--color-by,--color NAME", arguments.color,
                                      "A second array, whose values color the surfaces")
-                             .type_name("NAME")
                              .group(colors);
     command
-        .option("--color-component", arguments.color_component,
+        .option("--color-component COMPONENT", arguments.color_component,
                 "Component of the second array, as for --component")
         .needs(color)
-        .type_name("COMPONENT")
         .group(colors);
-    command.option("--color-unit", arguments.color_unit, "Unit of the second array's values")
+    command.option("--color-unit UNIT", arguments.color_unit, "Unit of the second array's values")
         .needs(color)
-        .type_name("UNIT")
         .group(colors);
 
     const char* raw = "Raw files without a header";
     command
-        .option("--dims", arguments.dims, "Number of vertices along x, y and z; x varies fastest")
-        .values(3)
-        .type_name("NX NY NZ")
+        .option("--dims NX NY NZ", arguments.dims,
+                "Number of vertices along x, y and z; x varies fastest")
         .between(2u, 65537u)
         .group(raw);
     command
-        .option("--type", arguments.type,
+        .option("--type TYPE", arguments.type,
                 "Type of the values in raw files. Other files are converted to this type, so that "
                 "files of several types make one series")
         .one_of({"i8", "u8", "i16", "u16", "i32", "f32", "f64"})
-        .type_name("TYPE")
         .group(raw);
     command
         .flag("--big-endian", read.big_endian, "The values are big-endian (default: little-endian)")
         .group(raw);
     command
-        .option("--header-bytes", read.header_bytes,
+        .option("--header-bytes COUNT", read.header_bytes,
                 "Number of bytes at the beginning of each file that are skipped")
         .shows_default()
-        .type_name("COUNT")
         .group(raw);
 }
 
 std::pair<Option, Option> add_index_options(Command& command, BuildArguments& arguments) {
     const char* index_group = "Index";
     command
-        .option("--tiers", arguments.tiers,
+        .option("--tiers LIST", arguments.tiers,
                 "Search structures to build: bricks, tree (the tree of the paper), bricks,tree, or "
                 "none (default: bricks)")
-        .type_name("LIST")
         .group(index_group);
     command
-        .option("--codec", arguments.codec,
+        .option("--codec CODEC", arguments.codec,
                 "Compression of the values (default: what suits each chunk best)")
         .one_of({"none", "lz4", "zstd"})
-        .type_name("CODEC")
         .group(index_group);
     command
         .flag("--append", arguments.append,
@@ -466,28 +443,25 @@ std::pair<Option, Option> add_index_options(Command& command, BuildArguments& ar
               "Leave the values in the files: the index holds references to them instead of a copy")
         .group(index_group);
     command
-        .option("--threads", arguments.build.threads,
+        .option("--threads COUNT", arguments.build.threads,
                 "Number of threads that build; 0 takes one for each processor")
         .between(0u, 1024u)
-        .type_name("COUNT")
         .group(index_group);
     const Option lattice =
         command
-            .option("--lattice", arguments.build.tree.lattice,
+            .option("--lattice COUNT", arguments.build.tree.lattice,
                     "Also build the tree of the paper, with a lattice of this many elements along "
                     "each side (the paper's SpanSpaceSize)")
             .between(1u, 4096u)
             .shows_default()
-            .type_name("COUNT")
             .group(index_group);
     const Option variation =
         command
-            .option("--max-variation", arguments.build.tree.max_variation,
+            .option("--max-variation COUNT", arguments.build.tree.max_variation,
                     "Also build the tree of the paper; it stores a cell once for a span of time in "
                     "which the cell lies in at most this many lattice elements")
             .between(1u, 64u)
             .shows_default()
-            .type_name("COUNT")
             .group(index_group);
     return {lattice, variation};
 }

@@ -148,8 +148,8 @@ void open_all(const OpenSource& open, const index::ReadOptions& options,
                 sources.component = source.component;
             } else if (info.grid != sources.volume->info().grid ||
                        info.times != sources.volume->info().times) {
-                throw index::Error(fmt::format("its shape or its times differ from {}",
-                                               sources.volume->info().array));
+                throw index::Error("its shape or its times differ from {}",
+                                   sources.volume->info().array);
             } else {
                 sources.further.push_back(std::move(source));
             }
@@ -279,9 +279,8 @@ void append_sources(BuildSources& sources, const std::shared_ptr<const index::In
         for (const ArraySource& source : sources.further)
             given.push_back(source.series->info().array);
         has = array_names(*held);
-        throw index::Error(fmt::format("{}: cannot be appended to: it holds the arrays {}, given "
-                                       "are {}",
-                                       name, fmt::join(has, ", "), fmt::join(given, ", ")));
+        throw index::Error("{}: cannot be appended to: it holds the arrays {}, given are {}", name,
+                           fmt::join(has, ", "), fmt::join(given, ", "));
     }
     sources.volume = index::append_to(held, name, std::move(sources.volume));
     sources.colors = index::append_colors_to(held, name, std::move(sources.colors));

@@ -5,8 +5,6 @@
 #include "index/name_pattern.h"
 #include "index/system/links/link.h"
 
-#include <fmt/format.h>
-
 #include <glob.h>
 
 #include <memory>
@@ -47,10 +45,9 @@ std::vector<fs::path> expand_patterns(const std::vector<std::string>& arguments)
     std::error_code ignored;
     for (const std::string& argument : arguments) {
         if (index::is_link(argument))
-            throw index::Error(fmt::format(
-                "{}: files of values are not read by a link, and neither is an index to "
-                "build of: download it",
-                argument));
+            throw index::Error("{}: files of values are not read by a link, and neither is an "
+                               "index to build of: download it",
+                               argument);
         // A file may have brackets in its name: an existing file is a name, not a pattern.
         if (fs::exists(argument, ignored) || argument.find_first_of("*?[") == std::string::npos) {
             files.emplace_back(argument);
@@ -61,7 +58,7 @@ std::vector<fs::path> expand_patterns(const std::vector<std::string>& arguments)
         if (found.empty())
             found = matching(index::escaped(argument, "["));
         if (found.empty())
-            throw index::MissingFile(fmt::format("{}: no file matches", argument));
+            throw index::MissingFile("{}: no file matches", argument);
         files.insert(files.end(), found.begin(), found.end());
     }
     return files;
@@ -77,8 +74,7 @@ std::optional<std::string> take_path_within(std::vector<std::string>& arguments)
             continue;
         const std::string path = argument.substr(colon + 1);
         if (found && *found != path)
-            throw index::Error(
-                fmt::format("{}: another path than {}, expected one array", argument, *found));
+            throw index::Error("{}: another path than {}, expected one array", argument, *found);
         found = path;
         argument.resize(colon);
     }

@@ -223,7 +223,7 @@ class KeptBuild {
         const std::size_t before = held();
         held_ = still_good(path_, *sources_.volume);
         if (!held_)
-            throw index::Error(fmt::format("{}: another program has replaced it", path_.string()));
+            throw index::Error("{}: another program has replaced it", path_.string());
         if (held() > before)
             report_held();
     }

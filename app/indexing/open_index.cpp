@@ -50,9 +50,9 @@ std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem
 void check_can_be_shown(const index::Grid& grid, const std::string& name) {
     constexpr std::size_t kMostBlocks = std::size_t{1} << 26;
     if (index::BlockTiling(grid).count() > kMostBlocks)
-        throw index::Error(fmt::format("{}: {} vertices, expected at most 2^35 to show; isochron "
-                                       "query finds the active cells of an isovalue",
-                                       name, grid.vertex_count()));
+        throw index::Error("{}: {} vertices, expected at most 2^35 to show; isochron query finds "
+                           "the active cells of an isovalue",
+                           name, grid.vertex_count());
 }
 
 std::shared_ptr<const index::IndexFile> open_array(const std::filesystem::path& path,
@@ -72,10 +72,10 @@ std::size_t array_on_surface(const index::IndexFile& file, const std::string& na
     if (const auto number = index::color_source_named(file, name))
         return *number;
     const std::vector<std::string> names = index::color_source_names(file);
-    throw index::Error(fmt::format(
-        "{}: no array {} {}, expected {}", file.name(), name, what_for,
-        names.empty() ? "an index with several arrays: isochron build --array A --array B ..."
-                      : fmt::format("{}", fmt::join(names, ", "))));
+    throw index::Error("{}: no array {} {}, expected {}", file.name(), name, what_for,
+                       names.empty()
+                           ? "an index with several arrays: isochron build --array A --array B ..."
+                           : fmt::format("{}", fmt::join(names, ", ")));
 }
 
 void warn_beyond(double isovalue, const index::IndexFile& file) {

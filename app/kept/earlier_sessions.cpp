@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <functional>
 #include <sys/stat.h>
 #include <tuple>
 #include <utility>
@@ -138,8 +137,8 @@ fs::path keep_earlier(const fs::path& path) {
         dated.replace_filename(fmt::format("{}-{}{}", start, number, path.extension().string()));
     fs::rename(path, dated, error);
     if (error)
-        throw index::Error(fmt::format("{}: the earlier session there cannot be renamed: {}",
-                                       path.string(), error.message()));
+        throw index::Error("{}: the earlier session there cannot be renamed: {}", path.string(),
+                           error.message());
     return dated;
 }
 

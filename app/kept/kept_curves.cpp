@@ -121,9 +121,7 @@ void KeptCurves::write(const StepCurve& curve) const {
     try {
         index::make_folder(folder_);
         const fs::path path = path_of(curve.subject);
-        index::NewFile file(path);
-        file.write_at(0, std::as_bytes(std::span(bytes)));
-        file.commit();
+        index::write_file(path, std::as_bytes(std::span(bytes)));
         index::make_room(folder_, kExtension, path, {most_bytes_, most_files_});
     } catch (const index::Error&) { // it is made anew the next time
     }

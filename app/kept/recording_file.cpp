@@ -4,8 +4,6 @@
 #include "index/system/input_file.h"
 #include "interaction/error.h"
 
-#include <fmt/format.h>
-
 #include <cstdio>
 
 namespace isochron::app {
@@ -13,8 +11,8 @@ namespace isochron::app {
 interaction::Recording read_recording(const std::filesystem::path& path) {
     index::InputStream file(path);
     if (const int first = file.peek(); first != EOF && first != '{')
-        throw interaction::Error(fmt::format(
-            "{}: not a recording, which `isochron explore --record` makes", path.string()));
+        throw interaction::Error("{}: not a recording, which `isochron explore --record` makes",
+                                 path.string());
     return interaction::read_recording(file, path.filename().string());
 }
 

@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <span>
 
 namespace isochron::app {
 namespace {
@@ -65,7 +64,7 @@ json arrays_json(const std::vector<interaction::Commands>& arrays) {
 SavedSession session_from(const json& value) {
     interaction::Members members(value, "session");
     if (interaction::text(members.at("format"), "format") != kFormat)
-        throw interaction::Error(fmt::format("not a session: expected format \"{}\"", kFormat));
+        throw interaction::Error("not a session: expected format \"{}\"", kFormat);
     interaction::natural(members.at("version"), "version", kVersion);
     SavedSession saved;
     saved.program = interaction::text(members.at("program"), "program");
@@ -126,9 +125,7 @@ void save_session(const std::filesystem::path& path, const SavedSession& session
     if (!session.picture.empty())
         value["picture"] = to_base64(session.picture);
     const std::string text = value.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
-    index::NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(text)));
-    file.commit();
+    index::write_file(path, text);
 }
 
 bool is_session_text(const std::string& text) {
@@ -141,10 +138,9 @@ SavedSession session_in(const std::string& text, const std::string& name) {
     try {
         return session_from(json::parse(text));
     } catch (const json::exception& mistake) {
-        throw interaction::Error(
-            fmt::format("{}: not a session: {}", name, index::json_mistake(mistake)));
+        throw interaction::Error("{}: not a session: {}", name, index::json_mistake(mistake));
     } catch (const interaction::Error& mistake) {
-        throw interaction::Error(fmt::format("{}: {}", name, mistake.what()));
+        throw interaction::Error("{}: {}", name, mistake.what());
     }
 }
 
@@ -155,17 +151,15 @@ SavedSession read_session(const std::filesystem::path& path) {
 ExplorerState state_of(const SavedSession& saved, const ExplorerState& fallback,
                        const std::string& data_hash, std::size_t steps, const std::string& name) {
     if (saved.data_hash != data_hash)
-        throw interaction::Error(
-            fmt::format("{}: a session on other data: expected hash {}, got {}", name, data_hash,
-                        saved.data_hash));
+        throw interaction::Error("{}: a session on other data: expected hash {}, got {}", name,
+                                 data_hash, saved.data_hash);
     ExplorerState state = fallback;
     if (!state.resume(saved.state, steps))
-        throw interaction::Error(
-            fmt::format("{}: what it holds does not fit the data ({} steps)", name, steps));
+        throw interaction::Error("{}: what it holds does not fit the data ({} steps)", name, steps);
     for (const interaction::Commands& left : saved.arrays)
         if (ExplorerState trial = state; !trial.apply(left, steps))
-            throw interaction::Error(
-                fmt::format("{}: how it left array {} does not fit the data", name, *left.array));
+            throw interaction::Error("{}: how it left array {} does not fit the data", name,
+                                     *left.array);
     state.leaving = false;
     state.exporting = {};
     return state;

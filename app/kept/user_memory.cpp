@@ -8,8 +8,6 @@
 #include "index/system/new_file.h"
 
 #include <algorithm>
-#include <span>
-#include <string>
 
 namespace isochron::app {
 namespace {
@@ -19,9 +17,7 @@ namespace fs = std::filesystem;
 void write_text(const fs::path& path, const std::string& text) {
     try {
         index::make_folder(path.parent_path());
-        index::NewFile file(path);
-        file.write_at(0, std::as_bytes(std::span(text)));
-        file.commit();
+        index::write_file(path, text);
     } catch (const index::Error&) { // then nothing is remembered
     }
 }

@@ -10,7 +10,6 @@
 #include <chrono>
 #include <iterator>
 #include <ranges>
-#include <utility>
 
 namespace isochron::app {
 

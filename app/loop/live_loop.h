@@ -42,14 +42,14 @@ struct LiveOptions {
     /// Called on a thread of its own.
     std::function<std::string(const std::filesystem::path&)> why_not_open;
     std::string stays = {}; ///< why these data cannot give way to others; empty: they can
-    /// What the user is told who wants to save a session that is not kept.
+    /// What a user who wants to save is told where the session is not saved.
     std::string not_kept = "this session is not saved";
     /// Called in each frame: the picture shows the note that it returns.
     std::function<std::string()> standing = [] { return std::string(); };
-    /// The link to what is shown; null: the data are not of a link.
+    /// Returns the link to what is shown; null: the data were not opened by a link.
     std::function<std::string()> link = {};
-    std::vector<interaction::WindowEvent> early = {}; ///< that came before the first frame
-    /// These events behind the early ones, which are taken.
+    std::vector<interaction::WindowEvent> early = {}; ///< events before the first frame
+    /// The early events, which are taken, and behind them these.
     std::vector<interaction::WindowEvent>
     behind_early(const std::vector<interaction::WindowEvent>& events) {
         early.insert(early.end(), events.begin(), events.end());
@@ -79,7 +79,7 @@ class LiveLoop {
 
     /// Lets a companion work beside all further frames, instead of one that had its place.
     void join(CompanionPlace place, std::shared_ptr<Companion> companion);
-    /// The session is not kept. @param why what the user is told who wants to save it
+    /// The session is not saved. @param why what a user who wants to save is told
     void keep_no_session(std::string why) { options_.not_kept = std::move(why); }
     /// Where the emulated head stands.
     interaction::StandingPlace standing() const { return emulation_.standing(); }

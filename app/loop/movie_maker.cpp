@@ -11,10 +11,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <cstring>
-#include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>

@@ -14,10 +14,8 @@
 #include "interaction/recording/key_film.h"
 #include "interaction/step_track.h"
 
-#include <fmt/format.h>
 #include <glm/common.hpp>
 
-#include <span>
 #include <utility>
 
 namespace isochron::app {
@@ -80,11 +78,7 @@ void PanelMovies::make_figure(const Session& session, MovieManner manner) {
     const std::string& index = session.file()->name();
     movies_.make(
         [text = figure_text(index::is_link(index) ? index : whole_path(index), key,
-                            size.y / size.x)](const auto& path) {
-            index::NewFile file(path);
-            file.write_at(0, std::as_bytes(std::span(text)));
-            file.commit();
-        },
+                            size.y / size.x)](const auto& path) { index::write_file(path, text); },
         recording_->work(), manner);
 }
 
@@ -105,9 +99,7 @@ void PanelMovies::save_story(Session& session) {
             kStoryEnding;
         const std::string text = interaction::keys_text(
             keys, linked ? data : std::filesystem::path(data).filename().string());
-        index::NewFile file(path);
-        file.write_at(0, std::as_bytes(std::span(text)));
-        file.commit();
+        index::write_file(path, text);
         session.show_messages({"story saved: " + whole_path(path)});
     } catch (const index::Error& error) {
         session.show_messages({error.what()});

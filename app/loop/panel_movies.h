@@ -14,7 +14,7 @@ namespace isochron::app {
 
 class PanelMovies final : public Companion {
   public:
-    /// @param recording of the session: movies are made of it, and its thread writes for them
+    /// @param recording of the session: movies are made of it, and its thread writes their files
     PanelMovies(MovieOrders orders, std::shared_ptr<LiveRecording> recording);
 
     void after_frame(Session& session, const LiveFrame& frame) override;

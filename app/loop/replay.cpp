@@ -46,9 +46,9 @@ ExplorerState start_of(const interaction::RecordingHeader& header, const Explore
     ExplorerState state = fallback;
     const auto refused = state.refusals(header.start, steps);
     if (!refused.empty() && !options.any_data)
-        throw interaction::Error(fmt::format(
+        throw interaction::Error(
             "the recording's start state does not fit the data: {} (--any-data goes on without)",
-            fmt::join(refused, "; ")));
+            fmt::join(refused, "; "));
     state.resume(header.start, steps);
     if (options.stereo)
         state.set_stereo(*options.stereo);

@@ -13,10 +13,8 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
-#include <utility>
 
 namespace isochron::app {
 namespace {

@@ -4,8 +4,6 @@
 #include "render/gl/driver.h"
 #include "render/gl/limits.h"
 
-#include <fmt/format.h>
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -18,8 +16,8 @@ constexpr int kSmooth = 4;
 /// @throws render::Error when this GL has fewer
 void check_samples(const char* where, int samples, const render::Gl& gl) {
     if (samples > render::max_samples(gl))
-        throw render::Error(fmt::format("{}: expected 0 to {} with this GL, got {}", where,
-                                        render::max_samples(gl), samples));
+        throw render::Error("{}: expected 0 to {} with this GL, got {}", where,
+                            render::max_samples(gl), samples);
 }
 
 int samples_of(const Config& config, const render::Gl& gl) {

@@ -20,7 +20,7 @@ stereo::DisplayOptions display_options(const render::Gl& gl, const Config& confi
 /// Samples of each pixel of a settled picture in a window.
 inline constexpr int kSettledSamples = 16;
 
-/// The options for a picture to keep.
+/// The options for a capture.
 /// @param window size of the picture's window, pixels
 /// @throws render::Error when this GL has fewer samples than configured for pictures
 stereo::DisplayOptions picture_options(const render::Gl& gl, const Config& config,

@@ -1,7 +1,6 @@
 // What commands may write over.
 #include "app/output/guarded_outputs.h"
 
-#include "app/output/known_files.h"
 #include "app/output/movie_file.h"
 #include "index/error.h"
 #include "index/readers/formats/format.h"
@@ -167,24 +166,21 @@ void guard(const Output& output, const Reads& reads, bool force) {
     if (!fs::exists(status))
         return;
     if (!fs::is_regular_file(status) && !frames)
-        throw index::Error(
-            fmt::format("{}: cannot be written: not a regular file", output.path.string()));
+        throw index::Error("{}: cannot be written: not a regular file", output.path.string());
     const bool known = !frames && is_known(output.path, output);
     const bool marked = frames || (known && output.kind != OutputKind::ids &&
                                    output.kind != OutputKind::configuration &&
                                    fs::file_size(output.path, ignored) > 0);
     if (const auto harm = harm_of({output.path, known, marked}, reads))
-        throw index::Error(fmt::format("{}: {}, it would be overwritten: expected another name",
-                                       output.path.string(), *harm));
+        throw index::Error("{}: {}, it would be overwritten: expected another name",
+                           output.path.string(), *harm);
     if (known || force || (frames && !holds_movie(output.path)))
         return;
     const std::string_view expected = words_of(output.kind);
     if (expected.empty())
-        throw index::Error(
-            fmt::format("{}: exists already; --force replaces it", output.path.string()));
-    throw index::Error(fmt::format("{}: exists and is not {}, but {}: expected a new name; --force "
-                                   "replaces it",
-                                   output.path.string(), expected, words_for(output.path)));
+        throw index::Error("{}: exists already; --force replaces it", output.path.string());
+    throw index::Error("{}: exists and is not {}, but {}: expected a new name; --force replaces it",
+                       output.path.string(), expected, words_for(output.path));
 }
 
 } // namespace
@@ -194,8 +190,8 @@ void guard_outputs(const std::vector<Output>& outputs, const Reads& reads, bool 
     std::set<std::string> taken;
     for (const Output& output : outputs) {
         if (!taken.insert(places.of(index::end_of_links(output.path)).native()).second)
-            throw index::Error(fmt::format("{}: two outputs have this name, expected two names",
-                                           output.path.string()));
+            throw index::Error("{}: two outputs have this name, expected two names",
+                               output.path.string());
         guard(output, reads, force);
     }
 }

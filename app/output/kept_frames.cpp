@@ -14,7 +14,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -165,8 +164,7 @@ KeptFrames::KeptFrames(const fs::path& movie, const std::string& question)
     if (!open || !is_own(open.number()))
         return;
     if (::flock(open.number(), LOCK_EX | LOCK_NB) != 0)
-        throw index::Error(
-            fmt::format("{}: another process is making this movie", movie_.string()));
+        throw index::Error("{}: another process is making this movie", movie_.string());
     open_ = std::move(open);
     keeps_ = true;
 }
@@ -193,9 +191,7 @@ void KeptFrames::keep(std::size_t frame, const std::vector<FramePart>& parts) {
         return;
     try {
         const std::string bytes = encoded(parts);
-        index::NewFile file(folder_ / file_of(frame));
-        file.write_at(0, std::as_bytes(std::span(bytes)));
-        file.commit();
+        index::write_file(folder_ / file_of(frame), std::as_bytes(std::span(bytes)));
     } catch (const index::Error&) { // the movie needs the room more
         keeps_ = false;
     }

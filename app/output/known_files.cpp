@@ -9,10 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <exception>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace isochron::app {

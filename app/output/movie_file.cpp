@@ -10,8 +10,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <span>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -43,9 +41,7 @@ void write_metadata(const fs::path& path, const std::string& note) {
         text += c;
     }
     text += '\n';
-    index::NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(text)));
-    file.commit();
+    index::write_file(path, text);
 }
 
 /// @param metadata file with the note; empty: none
@@ -86,7 +82,7 @@ struct FfmpegPipe {
     int ends[2]{-1, -1};
     FfmpegPipe() {
         if (pipe2(ends, O_CLOEXEC) != 0)
-            throw index::Error(fmt::format("a pipe to ffmpeg: {}", std::strerror(errno)));
+            throw index::Error("a pipe to ffmpeg: {}", std::strerror(errno));
     }
     ~FfmpegPipe() {
         close_end(0);
@@ -133,9 +129,9 @@ struct MovieFile::State {
             posix_spawnp(&ffmpeg, "ffmpeg", &files, nullptr, arguments.data(), environ);
         posix_spawn_file_actions_destroy(&files);
         if (error != 0)
-            throw index::Error(fmt::format("{}: movies are written by ffmpeg, which cannot be "
-                                           "started: {} (Debian: apt install ffmpeg)",
-                                           path.string(), std::strerror(error)));
+            throw index::Error("{}: movies are written by ffmpeg, which cannot be started: {} "
+                               "(Debian: apt install ffmpeg)",
+                               path.string(), std::strerror(error));
         pictures.close_end(0);
         complaints.close_end(1);
     }
@@ -161,8 +157,8 @@ struct MovieFile::State {
     }
     [[noreturn]] void fail() {
         const std::string said = ffmpeg > 0 ? wait() : std::string();
-        throw index::Error(fmt::format("{}: ffmpeg: {}", path.string(),
-                                       said.empty() ? "it took no more pictures" : said));
+        throw index::Error("{}: ffmpeg: {}", path.string(),
+                           said.empty() ? "it took no more pictures" : said);
     }
 };
 
@@ -173,9 +169,8 @@ MovieFile::~MovieFile() = default;
 void MovieFile::add(const render::Image& image, const std::string&) {
     State& s = *state_;
     if (image.width != s.size.x || image.height != s.size.y)
-        throw index::Error(fmt::format("{}: a picture of {} x {}, the movie has {} x {}",
-                                       s.path.string(), image.width, image.height, s.size.x,
-                                       s.size.y));
+        throw index::Error("{}: a picture of {} x {}, the movie has {} x {}", s.path.string(),
+                           image.width, image.height, s.size.x, s.size.y);
     for (std::size_t done = 0; done < image.rgba.size();) {
         const ssize_t count =
             write(s.pictures.ends[1], image.rgba.data() + done, image.rgba.size() - done);
@@ -196,7 +191,7 @@ void MovieFile::finish() {
     State& s = *state_;
     const std::string said = s.wait();
     if (!said.empty())
-        throw index::Error(fmt::format("{}: ffmpeg: {}", s.path.string(), said));
+        throw index::Error("{}: ffmpeg: {}", s.path.string(), said);
     if (s.path.extension() == ".gif" && !s.note.empty())
         add_note_to_gif(s.temporary, s.note);
     index::name_whole_file(s.temporary, s.path);

@@ -37,8 +37,8 @@ MovieFolder::~MovieFolder() = default;
 void MovieFolder::add(const render::Image& image, const std::string& note) {
     const glm::ivec2 size(image.width, image.height);
     if (frames_ > 0 && size != size_)
-        throw index::Error(fmt::format("{}: a picture of {} x {}, the movie has {} x {}",
-                                       path_.string(), size.x, size.y, size_.x, size_.y));
+        throw index::Error("{}: a picture of {} x {}, the movie has {} x {}", path_.string(),
+                           size.x, size.y, size_.x, size_.y);
     size_ = size;
     stereo::write_image(image, temporary_.path() / name_of(frames_), note);
     ++frames_;
@@ -49,7 +49,7 @@ void MovieFolder::finish() {
     if (!error)
         return;
     if (!fs::is_directory(path_))
-        throw index::Error(fmt::format("{}: {}", path_.string(), error.message()));
+        throw index::Error("{}: {}", path_.string(), error.message());
     error.clear();
     for (const fs::directory_entry& entry : fs::directory_iterator(path_, error))
         if (is_frame(entry.path()))
@@ -59,7 +59,7 @@ void MovieFolder::finish() {
         fs::rename(temporary_.path() / name, path_ / name, error);
     }
     if (error)
-        throw index::Error(fmt::format("{}: {}", path_.string(), error.message()));
+        throw index::Error("{}: {}", path_.string(), error.message());
 }
 
 bool is_movie_folder(const fs::path& path) {

@@ -20,15 +20,14 @@ Function* page_function(const char* name, const std::string& about) {
     try {
         return reinterpret_cast<Function*>(index::module_symbol("isochron_pages", name));
     } catch (const index::Error& error) {
-        throw index::Error(fmt::format("{}: figures are drawn by cairo (Debian: apt install "
-                                       "libcairo2): {}",
-                                       about, error.what()));
+        throw index::Error("{}: figures are drawn by cairo (Debian: apt install libcairo2): {}",
+                           about, error.what());
     }
 }
 
 void expect_done(const std::string& error, const std::string& about) {
     if (!error.empty())
-        throw index::Error(fmt::format("{}: {}", about, error));
+        throw index::Error("{}: {}", about, error);
 }
 
 /// The keywords of a PDF of cairo; empty: it has none.

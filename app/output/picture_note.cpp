@@ -65,12 +65,11 @@ std::string note_without_data(const char* shows) {
 PictureNote note_from_json(const json& value) {
     interaction::Members members(value, "picture");
     if (interaction::text(members.at("format"), "format") != kNoteFormat)
-        throw interaction::Error(fmt::format("expected format \"{}\"", kNoteFormat));
+        throw interaction::Error("expected format \"{}\"", kNoteFormat);
     interaction::natural(members.at("version"), "version", kNoteVersion);
     if (members.find("test_pattern"))
         throw interaction::Error(
-            "it shows the test pattern, which `isochron replay --test-pattern` "
-            "draws");
+            "it shows the test pattern, which `isochron replay --test-pattern` draws");
     if (members.find("room_plan"))
         throw interaction::Error("it shows a configuration, which `isochron explore --check-config "
                                  "FILE --picture` draws");
@@ -196,8 +195,8 @@ PictureNote note_from(const std::string& text) {
     try {
         return note_from_json(json::parse(inner));
     } catch (const json::exception& mistake) {
-        throw interaction::Error(
-            fmt::format("what it says of itself is damaged: {}", index::json_mistake(mistake)));
+        throw interaction::Error("what it says of itself is damaged: {}",
+                                 index::json_mistake(mistake));
     }
 }
 
@@ -223,7 +222,7 @@ void add_note_to_gif(const std::filesystem::path& path, const std::string& text)
     constexpr char kTrailer = '\x3b';
     std::string bytes = index::read_text(path, std::uint64_t{1} << 34);
     if (!bytes.starts_with("GIF8") || bytes.back() != kTrailer)
-        throw index::Error(fmt::format("{}: not a GIF", path.string()));
+        throw index::Error("{}: not a GIF", path.string());
     bytes.pop_back();
     bytes += {'\x21', '\xfe'};
     for (std::size_t at = 0; at < text.size(); at += kBlock) {
@@ -233,9 +232,7 @@ void add_note_to_gif(const std::filesystem::path& path, const std::string& text)
     }
     bytes += '\0';
     bytes += kTrailer;
-    index::NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(bytes)));
-    file.commit();
+    index::write_file(path, std::as_bytes(std::span(bytes)));
 }
 
 } // namespace isochron::app

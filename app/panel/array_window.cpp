@@ -40,6 +40,16 @@ bool pressed_in_room(const ListedArray& line, bool shown) {
     return pressed;
 }
 
+/// A column as wide as its widest words, where the table has room for all columns.
+void column(const char* title, const std::vector<ListedArray>& arrays,
+            std::string ListedArray::* words) {
+    constexpr float kBeside = 12.0f;
+    float widest = ImGui::CalcTextSize(title).x;
+    for (const ListedArray& each : arrays)
+        widest = std::max(widest, ImGui::CalcTextSize((each.*words).c_str()).x);
+    ImGui::TableSetupColumn(title, 0, widest + kBeside);
+}
+
 } // namespace
 
 /// @return whether a line was clicked twice
@@ -52,10 +62,10 @@ bool ArrayWindow::draw_lines(const std::vector<ListedArray>& arrays, const char*
                                       (static_cast<float>(arrays.size()) + 1.5f));
     if (!ImGui::BeginTable("arrays", 4, kTable, {0.0f, height}))
         return false;
-    ImGui::TableSetupColumn("array", 0, 2.2f);
-    ImGui::TableSetupColumn(values, 0, 1.8f);
-    ImGui::TableSetupColumn("unit", 0, 0.8f);
-    ImGui::TableSetupColumn("grid", 0, 2.4f);
+    column("array", arrays, &ListedArray::name);
+    column(values, arrays, &ListedArray::values);
+    column("unit", arrays, &ListedArray::unit);
+    column("grid", arrays, &ListedArray::grid);
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableHeadersRow();
     for (std::size_t i = 0; i < arrays.size(); ++i) {

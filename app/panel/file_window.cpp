@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <utility>
 
 namespace isochron::app {
 namespace {

@@ -26,7 +26,6 @@
 #include <filesystem>
 #include <iterator>
 #include <utility>
-#include <vector>
 
 namespace isochron::app {
 namespace {

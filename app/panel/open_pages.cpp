@@ -9,7 +9,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <utility>
 #include <variant>
 
 namespace isochron::app {
@@ -223,7 +222,7 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
         offers_earlier_ = answer == Answer::none;
     }
     asks_ = asks_ && offers_earlier_;
-    const bool told = story_card(model, picture, commands);
+    const bool told = story_card(model, picture, lowest, commands);
     if (!asks_name_ && !asks_)
         interaction::merge(commands, way_out(model, picture));
     if (has_room_for(kTourCard, picture, lowest))

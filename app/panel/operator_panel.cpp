@@ -66,10 +66,11 @@ stereo::Margins OperatorPanel::covered(glm::ivec2 size, const PanelRows& rows) c
     if (console_ || !first_.has_window())
         return {};
     const float scale = panel_scale(first_, font_scale_, size.x);
-    const PanelBox free = layout_in(PanelPlace::over, glm::vec2(size) / scale, rows).picture;
-    const glm::ivec2 low(glm::round(scale * free.low)), high(glm::round(scale * free.high));
-    if (2 * low.x > size.x || 2 * (high.y - low.y) < size.y)
+    const glm::vec2 window = glm::vec2(size) / scale;
+    const PanelBox free = layout_in(PanelPlace::over, window, rows).picture;
+    if (!has_room_for_picture(free, window))
         return {};
+    const glm::ivec2 low(glm::round(scale * free.low)), high(glm::round(scale * free.high));
     return {.left = low.x, .top = low.y, .bottom = size.y - high.y};
 }
 

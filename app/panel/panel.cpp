@@ -12,11 +12,10 @@
 #include "app/panel/parts/time_track.h"
 #include "app/panel/parts/view_cube.h"
 
-#include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -145,12 +144,16 @@ void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, C
     if (view.layout.folded && view.section)
         return keep_off(section_over_picture(model, view, pages, commands));
     const glm::vec2 chip = state_chip(model, free, view.statistics);
-    gap_window(model, free);
     const float left_of_cube = view_cube(model, free, commands);
     view.free.high.x = left_of_cube;
     view.lowest = left_of_cube < free.high.x ? free.low.y + kCubeEnd.y : chip.y;
     float below = chip.y + 6.0f;
-    if (has_tool_strip(model)) {
+    // In a low picture the lines of the tools give way to messages, the sooner above a story's card.
+    constexpr float kLow = 190.0f, kLowAboveStory = 260.0f;
+    const ImGuiWindow* const said = ImGui::FindWindowByName("###message");
+    const bool gives_way =
+        free.size().y < (model.asked.story > 0 ? kLowAboveStory : kLow) && said && said->WasActive;
+    if (has_tool_strip(model) && !gives_way) {
         ImGui::SetNextWindowPos({chip.x + kApart, free.low.y + 10.0f});
         ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {kPadding, 3.0f});
         ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(Ink::bar));
@@ -167,6 +170,7 @@ void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, C
     } else {
         view.free.low.x = chip.x + kApart;
     }
+    gap_window(model, free, below);
     if (!view.statistics)
         return;
     // Below them there is room for messages and for what a gap says, where there is none beside.
@@ -213,7 +217,7 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
         interaction::merge(commands, model.notes.empty->commands);
     end_part();
     ImGui::PopStyleVar();
-    if (model.asked.curves.shown) {
+    if (layout.curves.size().y > 0) {
         begin_part("###curves", layout.curves, Ink::paper);
         curve_drawer(model, commands);
         end_part();

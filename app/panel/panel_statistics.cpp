@@ -31,8 +31,8 @@ void measurements(const PanelModel& model) {
              : fmt::format("of {} candidates, {} reused", frame.candidates, frame.reused),
          color_of(Ink::dim));
     const glm::dvec3 size = physical_size(model.info.grid);
-    note(fmt::format("volume {:.4g} x {:.4g} x {:.4g}{}{}   shown at {:.3g} m", size.x, size.y,
-                     size.z, model.info.length_unit.empty() ? "" : " ", model.info.length_unit,
+    note(fmt::format("volume {}   shown at {:.3g} m",
+                     lengths_text({size.x, size.y, size.z}, model.info.length_unit),
                      std::max({size.x, size.y, size.z}) * model.asked.room_from_physical.scale),
          color_of(Ink::dim));
     note(fmt::format("search {:.2f} ms   blocks {:.2f} ms", frame.search.count(),

@@ -11,6 +11,9 @@ namespace isochron::app {
 void text(const std::string& line);
 /// Text that is wrapped to several lines.
 void note(const std::string& line, const ImVec4& color);
+/// The width, of the given one or somewhat less, at which a text takes as many lines but does not
+/// end in a line of one word, if there is one. @param words without line breaks
+float width_without_widow(const std::string& words, float width);
 /// What a popup is about, at its top.
 void popup_title(const char* words);
 /// A tip under the mouse on the control that was laid out last: what it does, and its key.

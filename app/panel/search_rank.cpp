@@ -10,24 +10,63 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 namespace isochron::app {
 namespace {
 
-constexpr double kStartOfWord = 0.85, kLongerWord = 0.75, kTypo = 0.75;
+constexpr double kStartOfWord = 0.85, kLongerWord = 0.75, kTypo = 0.75, kSameMeaning = 0.8;
 
-/// Words that tell little: they find no line alone.
-constexpr std::array<std::string_view, 40> kLittle{
-    "the", "a",    "an",   "of",   "to",   "in",     "on",     "at",   "by",  "for",
-    "and", "or",   "with", "as",   "is",   "it",     "its",    "my",   "me",  "i",
-    "how", "do",   "can",  "want", "set",  "change", "choose", "make", "get", "use",
-    "see", "show", "all",  "this", "that", "over",   "into",   "from", "be",  "turn"};
+/// Words that tell little: they find no line alone. The last ones are of controls themselves, such as
+/// other programs have them, and of what is done with any of them.
+constexpr std::array<std::string_view, 58> kLittle{
+    "the",  "a",      "an",     "of",      "to",    "in",     "on",        "at",       "by",
+    "for",  "and",    "or",     "with",    "as",    "is",     "it",        "its",      "my",
+    "me",   "i",      "how",    "do",      "can",   "want",   "set",       "change",   "choose",
+    "make", "get",    "use",    "see",     "show",  "all",    "this",      "that",     "over",
+    "into", "from",   "be",     "off",     "go",    "goto",   "jump",      "apply",    "enable",
+    "edit", "switch", "toggle", "disable", "place", "slider", "attribute", "property", "filter",
+    "mode", "widget", "effect", "operator"};
 bool tells_little(std::string_view word) {
     return std::ranges::find(kLittle, word) != kLittle.end();
+}
+
+/// Words that mean one thing in some program or other, in the form that `plain` gives them: whoever
+/// types one of them finds lines that have another.
+constexpr std::array<std::string_view, 16> kMeanings{
+    "mark marker fiducial landmark markup pin",
+    "remove delete erase clear discard unload",
+    "picture image screenshot snapshot photo capture",
+    "movie video animation film",
+    "viewpoint view camera",
+    "last end endpoint final",
+    "first start begin beginning",
+    "piece island component segment blob region",
+    "annotation overlay gizmo",
+    "slice plane section",
+    "turn rotate spin orbit",
+    "opacity alpha transparency transparent translucent",
+    "array variable field channel scalar quantity",
+    "surface isosurface contour layer",
+    "key keyframe keying",
+    "save export write"};
+/// The words of the meanings that a word has, itself included; empty: it has none.
+std::vector<std::string_view> same_meaning(std::string_view word) {
+    std::vector<std::string_view> same;
+    for (std::string_view rest : kMeanings) {
+        std::vector<std::string_view> group;
+        while (!rest.empty()) {
+            const std::size_t end = std::min(rest.find(' '), rest.size());
+            group.push_back(rest.substr(0, end));
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+        }
+        if (std::ranges::find(group, word) != group.end())
+            same.insert(same.end(), group.begin(), group.end());
+    }
+    return same;
 }
 
 /// American spelling, singular.
@@ -45,6 +84,8 @@ std::string plain(std::string word) {
     const auto end = [&](std::string_view letters) { return word.ends_with(letters); };
     if (word.size() > 4 && (end("ise") || end("yse")))
         word[word.size() - 2] = 'z';
+    if (word.size() > 6 && end("ies")) // `properties`, but `series` and `movies`
+        return word.substr(0, word.size() - 3) + "y";
     if (word.size() > 3 && end("s") && !end("ss") && !end("us") && !end("is"))
         word.pop_back();
     return word;
@@ -120,9 +161,10 @@ double match(std::string_view typed, std::string_view word) {
     return 0.0;
 }
 
-/// The words of a line: its phrases are its words, its name, and each of its other names.
+/// The words of a line: its phrases are its words, its key, its name, and each of its other names.
 struct LineWords {
     std::vector<std::vector<std::string>> phrases;
+    std::size_t own = 0; ///< the first ones, which are not its other names
 };
 LineWords words_of(const SearchLine& line) {
     LineWords all;
@@ -132,6 +174,8 @@ LineWords words_of(const SearchLine& line) {
     };
     add(line.words);
     add(line.key);
+    add(line.name);
+    all.own = all.phrases.size();
     std::string_view rest = line.others;
     while (!rest.empty()) {
         const std::size_t end = std::min(rest.find(','), rest.size());
@@ -141,16 +185,25 @@ LineWords words_of(const SearchLine& line) {
     return all;
 }
 
-double best_of(std::string_view typed, const std::vector<std::string>& phrase) {
+/// A word that was typed, and those that mean the same.
+struct TypedWord {
+    std::string text;
+    std::vector<std::string_view> same = same_meaning(text);
+};
+
+double best_of(const TypedWord& typed, const std::vector<std::string>& phrase) {
     double best = 0;
-    for (const std::string& word : phrase)
-        best = std::max(best, match(typed, word));
+    for (const std::string& word : phrase) {
+        best = std::max(best, match(typed.text, word));
+        if (best < kSameMeaning && std::ranges::find(typed.same, word) != typed.same.end())
+            best = kSameMeaning;
+    }
     return best;
 }
 
 /// Typed words and what each of them weighs.
 struct Typed {
-    std::vector<std::string> words;
+    std::vector<TypedWord> words;
     std::vector<double> weights;
     double whole = 0; ///< sum of the weights
     bool number = false;
@@ -162,10 +215,11 @@ struct Score {
     double total = 0; ///< orders the lines
 };
 Score score_of(const Typed& typed, const SearchLine& line, const LineWords& words) {
-    constexpr double kPhrase = 0.7, kNumber = 0.25;
+    constexpr double kPhrase = 0.7, kNumber = 0.25, kOtherName = 0.9;
     std::vector<double> anywhere(typed.words.size());
     double best_phrase = 0;
-    for (const std::vector<std::string>& phrase : words.phrases) {
+    for (std::size_t n = 0; n < words.phrases.size(); ++n) {
+        const std::vector<std::string>& phrase = words.phrases[n];
         double here = 0;
         for (std::size_t i = 0; i < typed.words.size(); ++i) {
             const double fits = best_of(typed.words[i], phrase);
@@ -176,8 +230,8 @@ Score score_of(const Typed& typed, const SearchLine& line, const LineWords& word
         const auto telling = static_cast<double>(
             std::ranges::count_if(phrase, [](const auto& word) { return !tells_little(word); }));
         const double mean = typed.whole / static_cast<double>(typed.words.size());
-        best_phrase =
-            std::max(best_phrase, 2 * here / (typed.whole + mean * std::max(1.0, telling)));
+        const double share = 2 * here / (typed.whole + mean * std::max(1.0, telling));
+        best_phrase = std::max(best_phrase, n < words.own ? share : kOtherName * share);
     }
     Score score;
     for (std::size_t i = 0; i < typed.words.size(); ++i)
@@ -204,7 +258,7 @@ double likeness(const Typed& typed, const LineWords& line) {
         double best = 0;
         for (const auto& phrase : line.phrases)
             for (const std::string& word : phrase)
-                best = std::max(best, likeness(typed.words[i], word));
+                best = std::max(best, likeness(typed.words[i].text, word));
         all += best * typed.weights[i] / typed.whole;
     }
     return all;
@@ -222,7 +276,7 @@ Ranking ranked(std::span<const SearchLine> lines, std::string_view text) {
         if (const auto number = number_of(word))
             ranking.number = number;
         else
-            typed.words.push_back(std::move(word));
+            typed.words.push_back({std::move(word)});
     }
     typed.number = ranking.number.has_value();
     if (typed.words.empty()) {
@@ -234,16 +288,32 @@ Ranking ranked(std::span<const SearchLine> lines, std::string_view text) {
     std::vector<LineWords> words;
     for (const SearchLine& line : lines)
         words.push_back(words_of(line));
-    for (const std::string& word : typed.words) {
+    std::vector<bool> known;
+    for (const TypedWord& word : typed.words) {
+        double best = 0;
         const auto with = std::ranges::count_if(words, [&](const LineWords& line) {
-            return std::ranges::any_of(
-                line.phrases, [&](const auto& phrase) { return best_of(word, phrase) >= kTypo; });
+            return std::ranges::any_of(line.phrases, [&](const auto& phrase) {
+                const double fits = best_of(word, phrase);
+                best = std::max(best, fits);
+                return fits >= kTypo;
+            });
         });
-        constexpr double kLittleWeight = 0.15;
+        known.push_back(with > 0);
+        constexpr double kLittleWeight = 0.15, kOnlyTypo = 0.6;
         const double rare = std::log(1.0 + static_cast<double>(lines.size()) /
                                                static_cast<double>(std::max<long>(with, 1)));
-        typed.weights.push_back(tells_little(word) ? kLittleWeight * rare : rare);
+        typed.weights.push_back(rare * (tells_little(word.text) ? kLittleWeight : 1) *
+                                (best <= kTypo ? kOnlyTypo : 1));
     }
+    // A word that no line has, such as a command of another program, decides less than those that some
+    // have.
+    double lightest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < known.size(); ++i)
+        if (known[i])
+            lightest = std::min(lightest, typed.weights[i]);
+    for (std::size_t i = 0; i < known.size(); ++i)
+        if (!known[i])
+            typed.weights[i] = std::min(typed.weights[i], lightest);
     typed.whole = std::accumulate(typed.weights.begin(), typed.weights.end(), 0.0);
     std::vector<std::pair<Score, const SearchLine*>> scored;
     for (std::size_t i = 0; i < lines.size(); ++i)

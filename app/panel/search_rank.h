@@ -22,7 +22,8 @@ struct Ranking {
 /// Ranks lines by the share of the typed words that each of them has in its words or other names: a
 /// rare word counts more than a frequent one. Words match in any order and case, from their beginning
 /// on (`transp`), in the plural, in British spelling and, if they have more than four letters, with
-/// one letter wrong, missing, added or exchanged with its neighbor.
+/// one letter wrong, missing, added or exchanged with its neighbor. A word that means the same in another
+/// program (`fiducial`, a mark) counts nearly as much.
 /// @param lines of `search_lines`; they outlive the result
 /// @param text without any word, all lines are found
 Ranking ranked(std::span<const SearchLine> lines, std::string_view text);

@@ -73,22 +73,27 @@ constexpr OtherNames kOtherNames[] = {
      "add isosurface, second surface, second isosurface, another contour, two levels, "
      "multiple contours, nested surfaces, new surface, duplicate surface, more "
      "surfaces, several isovalues"},
-    {"surface_of_array", "second array, overlay array, surface of another array, two variables, two "
-                             "arrays, second variable, second field, another quantity, combine arrays, "
-                             "compare variables, multivariate"},
+    {"surface_of_array",
+     "second array, overlay array, surface of another array, two variables, two "
+     "arrays, second variable, second field, another quantity, combine arrays, "
+     "compare variables, multivariate"},
     {"remove_surface", "delete surface, delete contour, remove isosurface"},
     {"hide_surface", "show surface, visibility, visible, eye, toggle surface, hide contour, "
                      "display surface"},
     {"opacity", "alpha, solid, opaque, density"},
-    {"transparency", "transparent, translucent, see through, semitransparent, ghosted, x-ray, glass"},
-    {"surface_color", "solid color, diffuse color, paint, recolor, tint, rgb, uniform color, "
-                      "material color, color picker"},
-    {"ghost_count", "ghost, onion skin, onion skinning, trail, trails, motion trail, earlier and later "
-               "steps, other steps, several steps, two steps at once, two moments, compare steps, "
-               "compare times, overlay time steps, before and after, afterimage, echo"},
+    {"transparency",
+     "transparent, translucent, see through, semitransparent, ghosted, x-ray, glass"},
+    {"surface_color",
+     "base color, solid color, diffuse color, paint, recolor, tint, rgb, uniform color, "
+     "material color, color picker"},
+    {"ghost_count",
+     "ghost, onion skin, onion skinning, trail, trails, motion trail, earlier and later "
+     "steps, other steps, several steps, two steps at once, two moments, compare steps, "
+     "compare times, overlay time steps, before and after, afterimage, echo"},
     {"ghosts", "ghosts on, ghosts off, onion skin, onion skinning, trail, earlier and later steps"},
-    {"earlier_ghosts", "earlier steps, previous surface, previous steps, past, where it was, history, "
-                       "trail behind"},
+    {"earlier_ghosts",
+     "earlier steps, previous surface, previous steps, past, where it was, history, "
+     "trail behind"},
     {"later_ghosts", "later steps, next surface, future, where it goes, ahead"},
     {"ghost_spacing", "onion skin spacing, distance of ghosts, every how many steps, stride of the "
                       "trail"},
@@ -101,7 +106,7 @@ constexpr OtherNames kOtherNames[] = {
     {"pieces", "list of pieces, components, connected regions, label, labels, particle analysis, "
                "largest piece, biggest component, table of objects"},
     {"only_piece",
-     "isolate, extract piece, keep only, largest region, single component, show alone, "
+     "local view, isolate, extract piece, keep only, largest region, single component, show alone, "
      "extract connected region, solo"},
     {"hide_piece", "delete piece, remove piece, remove blob, erase component"},
     {"color_piece", "paint piece, highlight piece, color component, recolor region, label color"},
@@ -197,8 +202,9 @@ constexpr OtherNames kOtherNames[] = {
     {"fly", "fly through, flythrough, walkthrough, first person"},
     {"walk_forward", "walk, move camera, dolly"},
     {"teleport", "jump to place, walk"},
-    {"save_view", "save camera, store view, bookmark view, camera bookmark, named view, add "
-                  "viewpoint, remember view, keyframe"},
+    {"save_view",
+     "scene view, save camera, store view, bookmark view, camera bookmark, named view, add "
+     "viewpoint, remember view, keyframe"},
     {"next_view", "camera bookmarks, saved views, restore view, recall view, go to viewpoint, "
                   "load camera"},
     // Stereo.
@@ -217,8 +223,9 @@ constexpr OtherNames kOtherNames[] = {
     {"quality_auto", "automatic quality, default quality, adaptive"},
     {"quality_fast", "fast, low quality, performance, slow, faster, lag, downsample, coarse, "
                      "interactive, draft, preview, low resolution, decimate"},
-    {"quality_best", "best quality, high quality, full resolution, exact, antialiasing, final, "
-                     "high resolution, fine, accurate"},
+    {"quality_best",
+     "volume step 1, best quality, high quality, full resolution, exact, antialiasing, final, "
+     "high resolution, fine, accurate"},
     {"quality_paper", "publication, reference, original method"},
     {"statistics", "frame rate, fps, frames per second, timing, memory, cache, cache size, ram, "
                    "number of triangles, number of cells, triangle count, polygons, performance "
@@ -261,8 +268,9 @@ constexpr OtherNames kOtherNames[] = {
     {"profile", "line profile, plot profile, plot over line, line plot, intensity profile, values "
                 "along a line, transect, cross section curve, sample along line, linescan"},
     {"curves=profile", "line profile, plot over line, values along a line"},
-    {"annotations", "hide marks, hide rulers, hide annotations, show annotations, hide labels, "
-                    "declutter"},
+    {"annotations",
+     "viewport overlays, hide marks, hide rulers, hide annotations, show annotations, hide labels, "
+     "declutter"},
     {"remove_rulers", "clear measurements, delete all measurements, remove all rulers"},
     {"remove_ruler", "clear measurements, delete measurement, remove distance, remove ruler, erase "
                      "measurement"},
@@ -284,9 +292,9 @@ constexpr OtherNames kOtherNames[] = {
     {"reverse", "play backwards, backward, rewind, reverse time, time reversal"},
     {"loop", "repeat, cycle, endless, play once, loop animation, loop playback"},
     {"ping_pong", "pingpong, bounce, boomerang, to and fro, forth and back, palindrome, swing"},
-    {"speed",
-     "playback speed, play speed, animation speed, slower, slowly, faster, time scale, slow motion, "
-     "tempo, pace, duration"},
+    {"speed", "playback speed, play speed, animation speed, slower, slowly, faster, time scale, "
+              "slow motion, "
+              "tempo, pace, duration"},
     {"rate", "fps, frames per second, steps per second, frame rate of playing, animation rate"},
     {"faster", "faster, speed up, playback speed, double speed"},
     {"slower", "slower, slowly, slow down, slow motion, playback speed, half speed"},
@@ -299,7 +307,8 @@ constexpr OtherNames kOtherNames[] = {
     {"range_first", "start frame, trim start, time range, in point, loop start"},
     {"range_last", "end frame, trim end, time range, out point, loop end"},
     {"range_all", "whole series, reset time range, all frames, full time range"},
-    {"curves", "curve, plot, graph, chart, diagram, time series, over time, plot over time, plot "
+    {"curves", "query over time, curve, plot, graph, chart, diagram, time series, over time, plot "
+               "over time, plot "
                "selection over time, measure, measurements, integrate variables, quantities, "
                "csv, spreadsheet, evolution, history, growth"},
     {"curves=area", "surface area, size of the surface, area over time, how large"},
@@ -322,14 +331,15 @@ constexpr OtherNames kOtherNames[] = {
                      "width and height, supersample, print size, 4k, figure for a paper, pixels"},
     {"picture_background=white", "white background in pictures, for print, publication"},
     {"picture_background=transparent",
-     "transparent background, transparent picture, alpha channel, no background"},
+     "film transparent, transparent background, transparent picture, alpha channel, no background"},
     {"picture_scale", "magnification, scale factor, larger picture, times as large"},
     {"picture_dpi", "dots per inch, pixels per inch, ppi, 300 dpi, print resolution"},
     {"caption", "annotation, title of the picture, text annotation, time stamp, timestamp"},
     {"legend",
      "color bar, colorbar, scalar bar, color legend, color key, hide legend, color scale"},
-    {"scale_bar", "scalebar, length bar, axes, orientation axes, axes triad, orientation marker, "
-                  "orientation widget, compass, micron bar"},
+    {"scale_bar",
+     "center axes, scalebar, length bar, axes, orientation axes, axes triad, orientation marker, "
+     "orientation widget, compass, micron bar"},
     {"box_in_pictures", "outline in pictures, axes in pictures"},
     {"marks_in_pictures", "annotations in pictures, labels in pictures"},
     {"movie", "save animation, export movie, export animation, make a movie, video, mp4, avi, gif, "
@@ -372,7 +382,8 @@ constexpr OtherNames kOtherNames[] = {
     {"save_session", "save state, save project, save workspace, save session, save, store session"},
     // Data and window.
     {"data",
-     "information, info, properties, metadata, dimensions, units, unit, voxel size, spacing, "
+     "min max query, missing files, missing steps, information, info, properties, metadata, "
+     "dimensions, units, unit, voxel size, spacing, "
      "extent, bounds, size, value range, shape, number of points, statistics, memory size, "
      "pixel size, data type, details, header, minimum, maximum, missing values, nan, holes, gaps, "
      "fill value"},
@@ -391,9 +402,8 @@ constexpr OtherNames kOtherNames[] = {
     {"remove_models", "close mesh, no model, delete model, remove mesh"},
     {"undo", "take back, revert, go back, undo camera, previous view"},
     {"redo", "do again, repeat change, restore change"},
-    {"panel",
-     "sidebar, side panel, hide sidebar, hide panel, toolbar, properties, dock, ui, hide "
-     "interface, menu, distraction free, inspector"},
+    {"panel", "sidebar, side panel, hide sidebar, hide panel, toolbar, properties, dock, ui, hide "
+              "interface, menu, distraction free, inspector"},
     {"quit", "exit, close, close program, leave"},
     {"ask_to_quit", "exit, close, close program, quit program, leave"},
 };
@@ -457,7 +467,7 @@ class Lines {
     /// Commands that set something; the line says where it is so already.
     template <class T>
     void value(std::string name, std::string words,
-               std::optional<T> interaction::SettingChanges::*member,
+               std::optional<T> interaction::SettingChanges::* member,
                const std::type_identity_t<T>& wanted, const std::type_identity_t<T>& now) {
         SearchLine& line = add({.name = std::move(name),
                                 .words = std::move(words),
@@ -539,12 +549,12 @@ void add_surfaces(Lines& lines) {
             surface.opacity = static_cast<float>(opacity);
         });
     };
-    lines.control("isovalue", "isovalue", said(model.asked.isovalue()), kSurfaces)
-        .with_number = [said](double number) {
-        NumberEffect effect{said(number), {}};
-        effect.commands.isovalue = number;
-        return effect;
-    };
+    lines.control("isovalue", "isovalue", said(model.asked.isovalue()), kSurfaces).with_number =
+        [said](double number) {
+            NumberEffect effect{said(number), {}};
+            effect.commands.isovalue = number;
+            return effect;
+        };
     if (stats.low < stats.high && !stats.histogram.empty()) {
         const double usual = quantile(stats, kFirstQuantile);
         SearchLine& line = lines.add({.name = "usual_isovalue",
@@ -616,8 +626,7 @@ void add_surfaces(Lines& lines) {
                   .value = words_for_pieces(model)})
             .commands.pieces = interaction::ShownPieces{};
     lines.control("histogram", "histogram of the values",
-                  range_text(stats.low, stats.high, model.picked_info().value_unit),
-                  kSurfaces);
+                  range_text(stats.low, stats.high, model.picked_info().value_unit), kSurfaces);
 }
 
 void add_ghosts(Lines& lines) {
@@ -759,7 +768,7 @@ void add_look(Lines& lines) {
         change(changed);
         lines.value(std::move(name), std::move(words), &Commands::look, changed, now);
     };
-    const auto add_each = [&](const char* setting, auto Look::*member) {
+    const auto add_each = [&](const char* setting, auto Look::* member) {
         using Value = std::decay_t<decltype(now.*member)>;
         lines.control(setting, setting, std::string(name_of(now.*member)), kView);
         const std::vector<std::string> names = interaction::all_names<Value>();
@@ -943,11 +952,11 @@ void add_objects(Lines& lines) {
             }
             if (!kind.has_eye())
                 continue;
-            SearchLine& line = lines.add({.name = fmt::format("{}={}", kind.name, item.name),
-                                          .words = fmt::format("{} {}", item.shown ? "hide" : "show",
-                                                               words_of_item(item)),
-                                          .others = std::string(other_names(kind.name)),
-                                          .value = item.shown ? "shown" : "hidden"});
+            SearchLine& line = lines.add(
+                {.name = fmt::format("{}={}", kind.name, item.name),
+                 .words = fmt::format("{} {}", item.shown ? "hide" : "show", words_of_item(item)),
+                 .others = std::string(other_names(kind.name)),
+                 .value = item.shown ? "shown" : "hidden"});
             if (!item.faulty) // else its eye may open a file
                 show_item(kind, model, i, !item.shown, line.commands);
         }
@@ -973,7 +982,8 @@ void add_models(Lines& lines) {
             change((*commands.models)[i]);
             return commands;
         };
-        const auto add = [&](const char* control, std::string words, bool interaction::Model::*on) {
+        const auto add = [&](const char* control, std::string words,
+                             bool interaction::Model::* on) {
             lines.add(
                 {.name = fmt::format("{}={}", control, name),
                  .words = std::move(words),
@@ -1114,7 +1124,7 @@ void add_pictures(Lines& lines) {
         change(*commands.pictures);
         return commands;
     };
-    const auto part = [&](const char* name, const char* words, bool WrittenPictures::*member) {
+    const auto part = [&](const char* name, const char* words, bool WrittenPictures::* member) {
         lines.on_or_off(name, words, now.*member, changed([member](WrittenPictures& pictures) {
                             pictures.*member = !(pictures.*member);
                         }));
@@ -1136,8 +1146,8 @@ void add_pictures(Lines& lines) {
              .commands =
                  changed([=](WrittenPictures& pictures) { pictures.background = background; })});
     }
-    const auto number_of = [&](const char* name, const char* words, double WrittenPictures::*member,
-                               double low, double high) {
+    const auto number_of = [&](const char* name, const char* words,
+                               double WrittenPictures::* member, double low, double high) {
         lines
             .add({.name = name,
                   .words = words,
@@ -1160,7 +1170,7 @@ void add_pictures(Lines& lines) {
         now.width > 0 ? fmt::format("{} x {}", now.width, now.height) : "as in the window";
     lines
         .add({.name = "picture_size",
-              .words = "size of pictures and movies: as in the window",
+              .words = "size of pictures and movies",
               .value = size,
               .commands =
                   changed([](WrittenPictures& pictures) { pictures.width = pictures.height = 0; })})

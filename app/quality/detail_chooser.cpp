@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

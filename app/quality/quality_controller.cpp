@@ -2,7 +2,6 @@
 #include "app/quality/quality_controller.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

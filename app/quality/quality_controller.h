@@ -8,12 +8,10 @@
 
 #include "app/frame/quality_reason.h"
 #include "app/quality/draw_cost.h"
-#include "interaction/commands.h"
 #include "interaction/controls/motion_gate.h"
 #include "render/drawing/cell_pass.h"
 
 #include <array>
-#include <cstdint>
 #include <optional>
 
 namespace isochron::app {

@@ -20,9 +20,9 @@ struct Audience {
     std::optional<interaction::Pose> wand;   ///< where it is shown
     std::optional<ShownPanel> panel;         ///< the panel that stands in the room
     stereo::StereoMode stereo{};             ///< chosen live
-    /// A wand's ray, or the value under a cursor, is shown; pictures to keep leave these out.
+    /// A wand's ray, or the value under a cursor, is shown; captures leave these out.
     bool aids = false;
-    /// The window's background is lifted; pictures to keep have the one that was asked for.
+    /// The window's background is lifted; captures have the background that was asked for.
     bool lifted = false;
     bool in_windows = true; ///< false: a headset shows them, and the first window mirrors it
     bool operator==(const Audience&) const = default;

@@ -1,29 +1,27 @@
 // Draws a cell once in every way in which cells are drawn.
 #include "app/scene/cell_warm_up.h"
 
-#include <algorithm>
-
 namespace isochron::app {
 
 CellWarmUp::CellWarmUp(const render::Gl& gl, const CellDrawing& drawing)
     : small_(gl, drawing.grid, matrix(drawing.picture.room_from_physical), drawing.meshes) {}
 
-void CellWarmUp::draw(std::size_t part, render::CellPass& cells, MovingCells& moving,
+void CellWarmUp::draw(std::size_t way, render::CellPass& cells, MovingCells& moving,
                       std::span<const render::View> views, const CellDrawing& drawing) const {
-    if (part == 0)
+    if (way == 0)
         moving.warm_up(drawing.picture, views, drawing.appearance.linear_light);
     else
-        small_.draw(part - 1, cells, views, drawing.appearance);
+        small_.draw(way - 1, cells, views, drawing.appearance);
 }
 
-bool CellWarmUp::draws(std::size_t part, render::Footprint footprint, bool translucent,
+bool CellWarmUp::draws(std::size_t way, render::Footprint footprint, bool translucent,
                        bool by_value) const {
-    if (part == 0)
+    if (way == 0)
         return false;
-    const SmallSurface::Way& way = small_.way(part - 1);
-    return way.footprint == footprint &&
+    const SmallSurface::Way& small = small_.way(way - 1);
+    return small.footprint == footprint &&
            (!render::has_layers(footprint) ||
-            ((way.opacity < 1) == translucent && way.by_value == by_value));
+            ((small.opacity < 1) == translucent && small.by_value == by_value));
 }
 
 } // namespace isochron::app

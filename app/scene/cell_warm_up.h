@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace isochron::app {
 
@@ -32,14 +31,13 @@ class CellWarmUp {
     /// @param gl outlives it
     CellWarmUp(const render::Gl& gl, const CellDrawing& drawing);
 
-    /// Parts: number 0 is how cells move, each other one is a way of `SmallSurface`.
-    std::size_t parts() const { return small_.ways() + 1; }
+    /// Way 0 is how cells move, each other one is a way of `SmallSurface`.
+    std::size_t ways() const { return small_.ways() + 1; }
     /// @param cells, moving which are to be ready, in the context that is current
-    void draw(std::size_t part, render::CellPass& cells, MovingCells& moving,
+    void draw(std::size_t way, render::CellPass& cells, MovingCells& moving,
               std::span<const render::View> views, const CellDrawing& drawing) const;
-    /// Whether a part draws with this footprint, in surfaces that are alike.
-    bool draws(std::size_t part, render::Footprint footprint, bool translucent,
-               bool by_value) const;
+    /// Whether a way draws with this footprint, in surfaces that are alike.
+    bool draws(std::size_t way, render::Footprint footprint, bool translucent, bool by_value) const;
 
   private:
     SmallSurface small_;

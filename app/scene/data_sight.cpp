@@ -2,7 +2,6 @@
 #include "app/scene/data_sight.h"
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 #include "app/text.h"
 #include "render/gl/srgb.h"
 
-#include <fmt/format.h>
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -17,7 +16,8 @@ namespace {
 constexpr int kPatches = 64; ///< number of patches in the bar
 constexpr int kMostLegendTicks = 6;
 // Heights of the text.
-constexpr float kBarHeight = 11.0f, kBarWidth = 1.0f, kMargin = 1.0f, kRimmed = 0.1f;
+constexpr float kBarHeight = 11.0f, kLeastBarHeight = 4.0f, kBarWidth = 1.0f, kMargin = 1.0f,
+                kRimmed = 0.1f;
 
 class Layout {
   public:
@@ -71,22 +71,25 @@ class Layout {
     std::vector<render::ScreenQuad> quads_;
 };
 
-void write_scale(const ColorScale& scale, Layout& layout) {
+/// @param height of the bar
+void write_scale(const ColorScale& scale, float height, Layout& layout) {
     const std::vector<glm::vec3> colors = colors_of(scale);
     const float foot = layout.top() + (layout.top() > 0.0f ? 1.0f : 0.5f);
-    layout.fill_rimmed({0.0f, foot}, {kBarWidth, kBarHeight}, layout.overlay().paper);
+    layout.fill_rimmed({0.0f, foot}, {kBarWidth, height}, layout.overlay().paper);
     for (int i = 0; i < kPatches; ++i) {
         const std::size_t at = i * (colors.size() - 1) / (kPatches - 1);
-        layout.fill({0.0f, foot + kBarHeight * static_cast<float>(i) / kPatches},
-                    {kBarWidth, kBarHeight / kPatches},
+        layout.fill({0.0f, foot + height * static_cast<float>(i) / kPatches},
+                    {kBarWidth, height / kPatches},
                     glm::vec4(render::srgb_from_linear(colors[at]), 1.0f));
     }
-    for (const ScaleTick& tick : ticks_on(scale, kMostLegendTicks)) {
-        const float y = foot + kBarHeight * static_cast<float>(tick.share);
+    constexpr float kForTick = 1.5f;
+    const int most = std::min(kMostLegendTicks, static_cast<int>(height / kForTick));
+    for (const ScaleTick& tick : ticks_on(scale, most)) {
+        const float y = foot + height * static_cast<float>(tick.share);
         layout.fill_rimmed({kBarWidth, y - 0.04f}, {0.4f, 0.08f}, layout.overlay().text);
         layout.write(tick.words, {kBarWidth + 0.7f, y});
     }
-    layout.write(scale.title, {0.0f, foot + kBarHeight + 1.1f});
+    layout.write(scale.title, {0.0f, foot + height + 1.1f});
 }
 
 bool is_seen(const interaction::Isosurface& surface) {
@@ -100,11 +103,12 @@ void write_surfaces(const Legend& legend, Layout& layout) {
             continue;
         if (!legend.colored)
             layout.fill_rimmed({0.0f, y - 0.4f}, {kBarWidth, 0.8f}, glm::vec4(surface.color, 1.0f));
-        layout.write(with_unit(surface.isovalue, legend.value_unit, legend.digits),
+        const std::string value = with_unit(surface.isovalue, legend.value_unit, legend.digits);
+        layout.write(legend.further.empty() ? value : legend.array + " " + value,
                      {kBarWidth + 0.7f, y});
         y += 1.3f;
     }
-    if (!legend.scales.empty() || !legend.further.empty())
+    if (!legend.scales.empty() && legend.further.empty())
         layout.write(legend.array, {0.0f, y});
 }
 
@@ -134,19 +138,28 @@ float line_scale(const glm::ivec2& picture, float share) {
 }
 
 std::vector<render::ScreenQuad> legend_quads(const Legend& legend, const render::TextPass& text,
-                                             const glm::ivec2& picture, float share) {
+                                             const glm::ivec2& picture, float share,
+                                             float highest) {
     const auto seen = std::ranges::count_if(legend.surfaces, is_seen);
     const bool several = seen > 1 || (seen == 1 && !legend.further.empty());
     if (legend.scales.empty() && !several && legend.further.empty() && legend.ghosts.empty())
         return {};
-    Layout layout(text, picture, legend.overlay, share);
-    for (const ColorScale& scale : legend.scales)
-        write_scale(scale, layout);
-    if (several)
-        write_surfaces(legend, layout);
-    write_lines(legend.further, layout);
-    write_lines(legend.ghosts, layout);
-    return layout.finish();
+    const auto with_bars = [&](float height) {
+        Layout layout(text, picture, legend.overlay, share);
+        for (const ColorScale& scale : legend.scales)
+            write_scale(scale, height, layout);
+        if (several)
+            write_surfaces(legend, layout);
+        write_lines(legend.further, layout);
+        write_lines(legend.ghosts, layout);
+        return layout;
+    };
+    std::optional<Layout> layout(with_bars(kBarHeight));
+    const float over = layout->top() + 2 * kMargin - highest / text_height(picture, share);
+    if (highest > 0.0f && over > 0.0f && !legend.scales.empty())
+        layout.emplace(with_bars(std::max(
+            kLeastBarHeight, kBarHeight - over / static_cast<float>(legend.scales.size()))));
+    return layout->finish();
 }
 
 } // namespace isochron::app

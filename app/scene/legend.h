@@ -5,7 +5,6 @@
 #include "app/scene/color_scale.h"
 #include "app/scene/overlay_colors.h"
 #include "index/volume/value_type.h"
-#include "interaction/commands.h"
 #include "render/passes/text_pass.h"
 
 #include <glm/vec2.hpp>
@@ -47,7 +46,10 @@ float line_scale(const glm::ivec2& picture, float share);
 /// Rectangles for `pixel_view`, at the lower right of the picture; empty if there is nothing to
 /// explain, or no room.
 /// @param share height of the words, see `text_height`
+/// @param highest where something else begins above it [pixel]; the bars of scales are shorter where
+/// they have no room below it. 0: nothing does
 std::vector<render::ScreenQuad> legend_quads(const Legend& legend, const render::TextPass& text,
-                                             const glm::ivec2& picture, float share = 0.0f);
+                                             const glm::ivec2& picture, float share = 0.0f,
+                                             float highest = 0.0f);
 
 } // namespace isochron::app

@@ -1,8 +1,6 @@
 // What a look comes to.
 #include "app/scene/look.h"
 
-#include "app/scene/overlay_colors.h"
-
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 

@@ -17,7 +17,17 @@ constexpr std::array<glm::vec4, 3> kAxisColors{glm::vec4(0.95f, 0.42f, 0.38f, 1.
                                                glm::vec4(0.50f, 0.85f, 0.45f, 1.0f),
                                                glm::vec4(0.45f, 0.65f, 1.0f, 1.0f)};
 constexpr std::array<const char*, 3> kAxisNames{"x", "y", "z"};
-constexpr float kAxisLength = 2.6f; ///< heights of the text
+// Heights of the text.
+constexpr float kAxisLength = 2.6f, kLeastAxisLength = 1.2f;
+constexpr float kLetterAt = 1.22f; ///< in lengths of an axis from the origin
+
+/// The length of axes whose letters end below a height; 0: there is no room for any.
+/// @param highest in heights of the text
+float axis_length(float highest) {
+    constexpr float kBelow = 1.0f, kHalfLetter = 0.6f;
+    const float length = (highest - kBelow - kHalfLetter) / (1.0f + kLetterAt);
+    return length >= kLeastAxisLength ? std::min(kAxisLength, length) : 0.0f;
+}
 
 struct SeenAxis {
     int axis;
@@ -60,17 +70,20 @@ std::optional<ScaleBar> scale_bar(const render::View& view,
 Orientation orientation_in(const render::View& view,
                            const interaction::Similarity& room_from_physical,
                            const index::SeriesInfo& info, const render::TextPass& text,
-                           const OverlayColors& overlay, float share) {
+                           const OverlayColors& overlay, float share, float highest) {
     const float height = text_height(view.size, share);
-    const glm::vec2 origin = glm::floor(glm::vec2((kAxisLength + 1.0f) * height));
+    const float length = highest > 0.0f ? axis_length(highest / height) : kAxisLength;
+    const glm::vec2 origin = glm::floor(glm::vec2((length + 1.0f) * height));
     Orientation shown;
     for (const SeenAxis& each : seen_axes(view, room_from_physical.rotation)) {
         const auto axis = static_cast<std::size_t>(each.axis);
-        const glm::vec2 end = origin + kAxisLength * height * glm::vec2(each.way);
+        if (length == 0.0f)
+            break;
+        const glm::vec2 end = origin + length * height * glm::vec2(each.way);
         const glm::vec4 color(overlay.bright * glm::vec3(kAxisColors[axis]), 1.0f);
         shown.lines.push_back({glm::vec3(origin, 0), glm::vec3(end, 0), color});
         text.set({.text = kAxisNames[axis],
-                  .at = glm::vec3(origin + 1.22f * (end - origin), 0.0f),
+                  .at = glm::vec3(origin + kLetterAt * (end - origin), 0.0f),
                   .color = color,
                   .halo = overlay.halo()},
                  height, shown.quads);
@@ -78,8 +91,7 @@ Orientation orientation_in(const render::View& view,
     const auto bar = scale_bar(view, room_from_physical, physical_center(info.grid));
     if (!bar)
         return shown;
-    const glm::vec3 left(glm::floor(glm::vec2(origin.x + (kAxisLength + 1.2f) * height, height)),
-                         0.0f);
+    const glm::vec3 left(glm::floor(glm::vec2(origin.x + (length + 1.2f) * height, height)), 0.0f);
     const float pixels = std::round(bar->pixels);
     const float tick = std::round(0.25f * height),
                 thick = std::max(1.0f, std::round(0.12f * height));

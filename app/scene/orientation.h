@@ -9,7 +9,6 @@
 #include "render/passes/text_pass.h"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace isochron::app {
@@ -33,9 +32,12 @@ std::optional<ScaleBar> scale_bar(const render::View& view,
                                   const glm::dvec3& center);
 
 /// @param share height of the words, see `text_height`
+/// @param highest where something else begins above the axes [pixel], which are shorter there or left
+/// out; 0: nothing does
 Orientation orientation_in(const render::View& view,
                            const interaction::Similarity& room_from_physical,
                            const index::SeriesInfo& info, const render::TextPass& text,
-                           const OverlayColors& overlay = {}, float share = 0.0f);
+                           const OverlayColors& overlay = {}, float share = 0.0f,
+                           float highest = 0.0f);
 
 } // namespace isochron::app

@@ -1,11 +1,9 @@
 // Draws what the eyes see: the cells, the volume's box, the legend, the wand and the floor.
 #include "app/scene/scene.h"
 
-#include "app/scene/axis_labels.h"
 #include "app/scene/caption.h"
 #include "app/scene/font.h"
 #include "app/scene/look.h"
-#include "app/scene/orientation.h"
 #include "app/scene/overlay_colors.h"
 #include "interaction/navigation/navigation.h"
 #include "render/gl/driver.h"
@@ -18,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -377,59 +374,59 @@ std::vector<std::size_t> Scene::begin_in_few_ways(const Picture& picture) {
                         .appearance = appearance_of(picture)};
     drawing.appearance.values.reset(); // whose texture belongs to this context
     few_.emplace(gl_, std::move(drawing));
-    const std::size_t parts = few_->drawn.size();
+    const std::size_t ways = few_->drawn.size();
     cell_pass_.use_points(false); // quads serve everywhere
     std::vector<std::size_t> needed;
     bool quad = false; // in one size
-    for (std::size_t part = 1; part < parts; ++part) {
-        const CellWarmUp& ways = few_->warm_up;
-        const bool is_quad = ways.draws(part, render::Footprint::quad, false, false);
+    for (std::size_t way = 1; way < ways; ++way) {
+        const CellWarmUp& warm_up = few_->warm_up;
+        const bool is_quad = warm_up.draws(way, render::Footprint::quad, false, false);
         bool surface = false;
         for (const bool translucent : {false, true})
             surface |= interaction::any_is(picture.isosurfaces, translucent) &&
-                       ways.draws(part, render::Footprint::surface, translucent,
-                                  picture.scale.has_value());
+                       warm_up.draws(way, render::Footprint::surface, translucent,
+                                     picture.scale.has_value());
         if (surface || (is_quad && !std::exchange(quad, true)))
-            needed.push_back(part);
+            needed.push_back(way);
     }
     return needed;
 }
 
-void Scene::prepare(std::size_t part, std::span<const render::View> views) {
+void Scene::prepare(std::size_t way, std::span<const render::View> views) {
     render::CellAppearance& appearance = few_->drawing.appearance;
     if (appearance.near_fade && !views.empty())
         appearance.near_fade->between_eyes =
             head_of(views.front(), few_->drawing.picture.audience.viewers);
-    const bool later = few_->drawn.front() || part == 0; // after the first picture
+    const bool later = few_->drawn.front() || way == 0; // after the first picture
     cell_pass_.use_points(later);
-    few_->warm_up.draw(part, cell_pass_, moving_, views, few_->drawing);
+    few_->warm_up.draw(way, cell_pass_, moving_, views, few_->drawing);
     cell_pass_.use_points(false);
-    if (part == 0) {
+    if (way == 0) {
         background_pass_.link();
         veil_pass_.link();
         panel_pass_.link();
     }
     // Quads are drawn as points only later.
-    few_->drawn[part] = later || !few_->warm_up.draws(part, render::Footprint::quad, false, false);
-    if (parts_left().empty()) {
+    few_->drawn[way] = later || !few_->warm_up.draws(way, render::Footprint::quad, false, false);
+    if (ways_left().empty()) {
         few_.reset();
         cell_pass_.use_points(true);
     }
 }
 
-std::vector<std::size_t> Scene::parts_left() const {
+std::vector<std::size_t> Scene::ways_left() const {
     std::vector<std::size_t> left;
-    for (std::size_t part = 0; few_ && part < few_->drawn.size(); ++part)
-        if (!few_->drawn[part])
-            left.push_back(part);
+    for (std::size_t way = 0; few_ && way < few_->drawn.size(); ++way)
+        if (!few_->drawn[way])
+            left.push_back(way);
     return left;
 }
 
 bool Scene::is_ready(render::Footprint footprint, bool opaque, bool translucent,
                      bool by_value) const {
     const auto ready = [&](bool lets_light_through) {
-        for (const std::size_t part : parts_left())
-            if (few_->warm_up.draws(part, footprint, lets_light_through, by_value))
+        for (const std::size_t way : ways_left())
+            if (few_->warm_up.draws(way, footprint, lets_light_through, by_value))
                 return false;
         return true;
     };
@@ -437,15 +434,14 @@ bool Scene::is_ready(render::Footprint footprint, bool opaque, bool translucent,
            ((!opaque || ready(false)) && (!translucent || ready(true)));
 }
 
-float Scene::warm_up(const Picture& picture, std::span<const render::View> views,
-                     std::size_t part) {
-    if (part == 0) {
+float Scene::warm_up(const Picture& picture, std::span<const render::View> views, std::size_t way) {
+    if (way == 0) {
         begin_in_few_ways(picture);
         few_->drawn[0] = true; // all of them come now, with points
     }
-    const std::size_t parts = few_->drawn.size();
-    prepare(part, views);
-    return static_cast<float>(part + 1) / static_cast<float>(parts);
+    const std::size_t ways = few_->drawn.size();
+    prepare(way, views);
+    return static_cast<float>(way + 1) / static_cast<float>(ways);
 }
 
 std::size_t Scene::work(const Picture& picture, std::size_t views) {
@@ -483,6 +479,8 @@ void Scene::draw_among_cells(std::span<const render::View> views, const Picture&
 Scene::CornerWords Scene::words_in_corners(const render::View& view, const Picture& picture) const {
     const OverlayColors overlay = overlay_of(picture);
     const float share = picture.layout.text;
+    const auto chip = upper_corner(view, picture.layout, false),
+               cube = upper_corner(view, picture.layout, true);
     CornerWords words;
     if (picture.legend) {
         std::vector<ColorScale> scales;
@@ -495,11 +493,11 @@ Scene::CornerWords Scene::words_in_corners(const render::View& view, const Pictu
             legend_quads({picture.isosurfaces, info_.value_unit, info_.digits, scales,
                           picture.scale && picture.surfaces, overlay, picture.values.array,
                           lines_of_further(picture), lines_of_ghosts(picture)},
-                         text_pass_, view.size, share);
+                         text_pass_, view.size, share, cube ? cube->low.y : 0.0f);
     }
     if (picture.orientation)
-        words.orientation =
-            orientation_in(view, picture.room_from_physical, info_, text_pass_, overlay, share);
+        words.orientation = orientation_in(view, picture.room_from_physical, info_, text_pass_,
+                                           overlay, share, chip ? chip->low.y : 0.0f);
     if (!picture.caption.empty())
         words.caption = caption_quads(picture.caption, text_pass_, view.size, overlay, share);
     return words;

@@ -66,20 +66,19 @@ class Scene {
     /// `render::CellPass::draw`
     std::size_t draw(const Picture& picture, std::span<const render::View> views,
                      const ScenePart& part = {});
-    /// Draws a cell in one of the ways in which cells are drawn, part by part in all of them. What
+    /// Draws a cell in one of the ways in which cells are drawn: called for each way in turn. What
     /// stands beside cells is drawn by `draw`.
-    /// @param part number of the part, from 0 @return the share that is done; 1: that was the last
-    float warm_up(const Picture& picture, std::span<const render::View> views, std::size_t part);
+    /// @param way from 0 @return the share of the ways that is done; 1: that was the last
+    float warm_up(const Picture& picture, std::span<const render::View> views, std::size_t way);
 
-    /// From now on cells are drawn only in ways that `prepare` has drawn: first those of this picture,
-    /// in a few parts that `parts_left` no longer has once they are drawn.
-    /// @return parts that the picture needs
+    /// From now on cells are drawn only in ways that `prepare` has drawn.
+    /// @return ways that this picture needs, which come first
     std::vector<std::size_t> begin_in_few_ways(const Picture& picture);
-    /// Draws a cell in the way of this part.
-    void prepare(std::size_t part, std::span<const render::View> views);
-    /// The parts that were not drawn; none once cells are drawn in all ways.
-    std::vector<std::size_t> parts_left() const;
-    /// How cells are drawn, for a context beside this one; while there are parts left.
+    /// Draws a cell in this way.
+    void prepare(std::size_t way, std::span<const render::View> views);
+    /// The ways in which no cell was drawn yet.
+    std::vector<std::size_t> ways_left() const;
+    /// How cells are drawn, for a context beside this one; while there are ways left.
     const CellDrawing& cell_drawing() const { return few_->drawing; }
     /// Whether cells can be drawn so without a program that is still to be compiled.
     bool is_ready(render::Footprint footprint, bool opaque, bool translucent, bool by_value) const;
@@ -164,9 +163,9 @@ class Scene {
     struct FewWays {
         CellDrawing drawing;
         CellWarmUp warm_up;
-        std::vector<bool> drawn; ///< by part
+        std::vector<bool> drawn; ///< by way
         FewWays(const render::Gl& gl, CellDrawing how)
-            : drawing(std::move(how)), warm_up(gl, drawing), drawn(warm_up.parts()) {}
+            : drawing(std::move(how)), warm_up(gl, drawing), drawn(warm_up.ways()) {}
     };
     std::optional<FewWays> few_;
     render::LinePass line_pass_;

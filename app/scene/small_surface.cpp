@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
-#include <span>
 
 namespace isochron::app {
 

@@ -14,7 +14,6 @@
 #include <array>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace isochron::app {
 

@@ -141,9 +141,9 @@ class Server final : public HttpServer {
         where.ss_family = is_v6 ? AF_INET6 : AF_INET;
         if (inet_pton(where.ss_family, place.address.c_str(),
                       is_v6 ? static_cast<void*>(&v6->sin6_addr) : &v4->sin_addr) != 1)
-            throw index::Error(fmt::format("--address {}: expected an address of this machine, as "
-                                           "127.0.0.1 or 0.0.0.0 for all",
-                                           place.address));
+            throw index::Error("--address {}: expected an address of this machine, as 127.0.0.1 or "
+                               "0.0.0.0 for all",
+                               place.address);
         listener_ = socket(where.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
         const int yes = 1;
         setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -211,9 +211,7 @@ class Server final : public HttpServer {
 
 void write_page(const std::filesystem::path& folder, SiteParts parts) {
     const auto write = [](const std::filesystem::path& path, std::span<const std::byte> bytes) {
-        index::NewFile file(path);
-        file.write_at(0, bytes);
-        file.commit();
+        index::write_file(path, bytes);
     };
     std::filesystem::create_directories(folder / "assets");
     for (const PageFile& file : page_files())

@@ -79,13 +79,11 @@ Site::Site(SiteParts parts) : parts_(std::move(parts)) {
         all.push_back(parts_.story);
     for (const fs::path& file : all) {
         if (!file_now(file))
-            throw index::Error(fmt::format("{}: there is no such file", file.string()));
+            throw index::Error("{}: there is no such file", file.string());
         const std::string name = file.filename().string();
         if (!files_.emplace(name, file).second)
-            throw index::Error(
-                fmt::format("{} and {}: two files with the same name cannot be served "
-                            "together",
-                            files_[name].string(), file.string()));
+            throw index::Error("{} and {}: two files with the same name cannot be served together",
+                               files_[name].string(), file.string());
     }
 }
 

@@ -1,4 +1,4 @@
-// Measures surfaces at all steps, on a thread of its own.
+// Measures surfaces at all steps.
 #include "app/session/curve_maker.h"
 
 #include "index/error.h"
@@ -7,6 +7,7 @@
 #include "index/system/memory_limit.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -18,23 +19,10 @@
 namespace isochron::app {
 
 CurveMaker::CurveMaker(Measure measure)
-    : measure_(std::move(measure)), worker_([this](const std::stop_token& stop) { work(stop); }) {}
-
-CurveMaker::~CurveMaker() {
-    worker_.request_stop();
-    const std::scoped_lock lock(mutex_);
-    stop_step_.request_stop();
-}
-
-void CurveMaker::set_wake(std::function<void()> wake) {
-    const std::scoped_lock lock(mutex_);
-    wake_ = std::move(wake);
-}
-
-void CurveMaker::keep_in(KeptCurves kept) {
-    const std::scoped_lock lock(mutex_);
-    kept_ = std::move(kept);
-}
+    : tools_{std::move(measure), {}},
+      asker_(do_task, [](const Task& task, const std::string& why, bool canceled) {
+          return Done{task.subject, canceled ? std::string() : why};
+      }) {}
 
 CurveMaker::Job* CurveMaker::job_of(const CurveSubject& subject) {
     const auto job = std::ranges::find(
@@ -42,10 +30,14 @@ CurveMaker::Job* CurveMaker::job_of(const CurveSubject& subject) {
     return job == jobs_.end() ? nullptr : &*job;
 }
 
+const StepCurvePtr& CurveMaker::share(Job& job) {
+    if (!job.shared)
+        job.shared = std::make_shared<const StepCurve>(job.curve);
+    return job.shared;
+}
+
 void CurveMaker::update(const WantedCurves& wanted) {
-    const std::scoped_lock lock(mutex_);
-    if (wanted == wanted_)
-        return;
+    take();
     if (wanted.subjects != wanted_.subjects) {
         std::vector<Job> jobs;
         for (const CurveSubject& subject : wanted.subjects)
@@ -55,129 +47,124 @@ void CurveMaker::update(const WantedCurves& wanted) {
                 jobs.push_back({{subject, numbers_of(subject), subject.array->info().steps()}});
         jobs_ = std::move(jobs);
         failure_.clear();
-        if (measured_ && !job_of(*measured_))
-            stop_step_.request_stop();
+        if (asked_ && !job_of(*asked_))
+            asker_.cancel();
     }
     wanted_ = wanted;
-    changed_.notify_all();
+    ask();
 }
 
 std::vector<StepCurvePtr> CurveMaker::curves() {
-    const std::scoped_lock lock(mutex_);
     std::vector<StepCurvePtr> all;
-    for (Job& job : jobs_) {
-        if (!job.shared)
-            job.shared = std::make_shared<const StepCurve>(job.curve);
-        all.push_back(job.shared);
-    }
+    std::ranges::transform(jobs_, std::back_inserter(all), share);
     return all;
 }
 
-std::string CurveMaker::failure() const {
-    const std::scoped_lock lock(mutex_);
-    return failure_;
-}
-
 void CurveMaker::finish() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return !measured_ && !next(); });
+    while (asked_) {
+        asker_.finish();
+        take();
+        ask();
+    }
 }
 
-/// The shown step, then those at hand, then the others: each time the nearest one.
-std::optional<std::uint32_t> CurveMaker::next_step(const Job& job) const {
-    const auto steps = static_cast<std::uint32_t>(job.curve.steps());
-    const auto unknown = [&](std::uint32_t step) { return step < steps && !job.curve.known[step]; };
-    if (unknown(wanted_.now))
-        return wanted_.now;
-    if (!wanted_.rest || job.curve.left == 0)
-        return std::nullopt;
-    const auto away = [&](std::uint32_t step) {
-        return std::abs(static_cast<std::int64_t>(step) - static_cast<std::int64_t>(wanted_.now));
-    };
-    std::optional<std::uint32_t> nearest;
-    for (const std::uint32_t step : wanted_.at_hand)
-        if (unknown(step) && (!nearest || away(step) < away(*nearest)))
-            nearest = step;
-    for (std::uint32_t off = 1; !nearest; ++off)
-        if (wanted_.now + off < steps && unknown(wanted_.now + off))
-            nearest = wanted_.now + off;
-        else if (wanted_.now >= off && unknown(wanted_.now - off))
-            nearest = wanted_.now - off;
-    return nearest;
+void CurveMaker::take() {
+    for (Done& done : asker_.take()) {
+        asked_.reset();
+        Job* const job = job_of(done.subject);
+        if (!job) // it has gone meanwhile
+            continue;
+        job->looked = true;
+        if (!done.failure.empty())
+            failure_ = done.failure;
+        if (done.kept)
+            job->curve = std::move(*done.kept);
+        for (const auto& [step, numbers] : done.steps)
+            job->curve.set(step, numbers);
+        if (done.kept || !done.steps.empty())
+            job->shared.reset();
+        job->measured |= !done.steps.empty();
+    }
+}
+
+void CurveMaker::ask() {
+    if (asked_)
+        return;
+    if (std::optional<Task> task = next()) {
+        asked_ = task->subject;
+        asker_.ask(std::move(*task));
+    }
 }
 
 /// The surfaces take turns, so that their curves grow together.
-std::optional<CurveMaker::Task> CurveMaker::next() const {
+std::optional<CurveMaker::Task> CurveMaker::next() {
     if (wanted_.paused)
         return std::nullopt;
-    std::optional<Task> next;
-    for (std::size_t i = 0; i < jobs_.size(); ++i) {
-        if (kept_ && wanted_.rest && !jobs_[i].looked)
-            return Task{i, std::nullopt};
-        const auto step = next_step(jobs_[i]);
-        if (step && (!next || jobs_[i].curve.left > jobs_[next->job].curve.left))
-            next = Task{i, step};
+    const Job* next = nullptr;
+    for (Job& job : jobs_) {
+        if (tools_.kept && !job.looked)
+            return Task{&tools_, job.curve.subject};
+        if (tools_.kept && job.curve.left == 0 && failure_.empty() &&
+            std::exchange(job.measured, false))
+            return Task{&tools_, job.curve.subject, {}, share(job)};
+        if (job.curve.left > (next ? next->curve.left : 0))
+            next = &job;
     }
-    return next;
+    return next ? std::optional(Task{&tools_, next->curve.subject, next_steps(next->curve)})
+                : std::nullopt;
 }
 
-void CurveMaker::do_task(const Task& task, std::unique_lock<std::mutex>& lock) {
-    const CurveSubject subject = jobs_[task.job].curve.subject;
-    measured_ = subject;
-    stop_step_ = std::stop_source();
-    const std::stop_token stop = stop_step_.get_token();
-    std::optional<std::vector<double>> numbers;
-    std::optional<StepCurve> kept;
-    std::string why;
-    lock.unlock();
-    try {
-        if (task.step)
-            numbers = measure_(subject, *task.step, stop);
-        else
-            kept = kept_->read(subject);
-    } catch (const std::bad_alloc&) {
-        why = index::shortage_of_memory();
-    } catch (const std::exception& error) {
-        why = error.what();
+/// The shown step, then those at hand, then the others: each time the nearest one.
+std::vector<std::uint32_t> CurveMaker::next_steps(const StepCurve& curve) const {
+    constexpr std::size_t kMost = 64;
+    const auto now = static_cast<std::int64_t>(wanted_.now);
+    const auto away = [&](std::int64_t step) { return std::abs(step - now); };
+    std::vector<std::uint32_t> steps;
+    const auto add = [&](std::int64_t at) {
+        const auto step = static_cast<std::uint32_t>(at);
+        if (at >= 0 && step < curve.steps() && !curve.known[step] && steps.size() < kMost &&
+            std::ranges::find(steps, step) == steps.end())
+            steps.push_back(step);
+    };
+    add(now);
+    std::vector<std::uint32_t> at_hand = wanted_.at_hand;
+    std::ranges::stable_sort(at_hand, {}, away);
+    std::ranges::for_each(at_hand, add);
+    for (std::int64_t off = 1; steps.size() < std::min(kMost, curve.left); ++off) {
+        add(now + off);
+        add(now - off);
     }
-    lock.lock();
-    Job* const job = job_of(subject); // it may have gone meanwhile
-    if (!job)
-        return;
-    job->looked = true;
-    if (kept)
-        job->curve = std::move(*kept);
-    if (!why.empty()) { // the other steps may be whole
-        failure_ = why;
-        numbers.emplace(job->curve.values.size(), std::numeric_limits<double>::quiet_NaN());
-    }
-    if (task.step && numbers)
-        job->curve.set(*task.step, *numbers);
-    job->shared.reset();
-    if (!kept_ || !numbers || job->curve.left > 0 || !failure_.empty())
-        return;
-    const StepCurve whole = job->curve;
-    lock.unlock();
-    kept_->write(whole);
-    lock.lock();
+    return steps;
 }
 
-void CurveMaker::work(const std::stop_token& stop) {
+CurveMaker::Done CurveMaker::do_task(const Task& task, const Asking& asking) {
     constexpr int kPolitest = 19; // behind all that draws and searches for the picture
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kPolitest);
-    std::unique_lock lock(mutex_);
-    std::optional<Task> task;
-    while (changed_.wait(lock, stop, [&] { return (task = next()).has_value(); }) &&
-           !stop.stop_requested()) {
-        do_task(*task, lock);
-        measured_.reset();
-        changed_.notify_all();
-        const std::function<void()> wake = wake_;
-        lock.unlock();
-        if (wake)
-            wake();
-        lock.lock();
+    Done done{task.subject};
+    if (task.whole)
+        task.tools->kept->write(*task.whole);
+    else if (task.steps.empty())
+        done.kept = task.tools->kept->read(task.subject);
+    constexpr std::chrono::milliseconds kTurn(50);
+    const auto ends = std::chrono::steady_clock::now() + kTurn;
+    for (const std::uint32_t step : task.steps) {
+        std::optional<std::vector<double>> numbers;
+        try {
+            numbers = task.tools->measure(task.subject, step, asking.stop);
+            if (!numbers)
+                break; // stopped
+        } catch (const std::bad_alloc&) { // the other steps may be whole
+            done.failure = index::shortage_of_memory();
+        } catch (const std::exception& error) {
+            done.failure = error.what();
+        }
+        done.steps.emplace_back(
+            step, numbers.value_or(std::vector(numbers_of(task.subject),
+                                               std::numeric_limits<double>::quiet_NaN())));
+        if (std::chrono::steady_clock::now() > ends)
+            break;
     }
+    return done;
 }
 
 namespace {

@@ -1,17 +1,15 @@
-// Measures surfaces at all steps, on a thread of its own that stands behind the picture.
+// Measures surfaces at all steps, behind the picture.
 #pragma once
 
+#include "app/frame/asker.h"
 #include "app/frame/step_curve.h"
 #include "app/kept/kept_curves.h"
 
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -21,10 +19,8 @@ namespace isochron::app {
 struct WantedCurves {
     std::vector<CurveSubject> subjects;
     std::uint32_t now = 0;              ///< step that is shown: it comes first
-    std::vector<std::uint32_t> at_hand; ///< steps that come next
-    bool rest = false;                  ///< also the others, the nearest ones first
+    std::vector<std::uint32_t> at_hand; ///< steps that come next, before the others
     bool paused = false;                ///< no step is begun
-    bool operator==(const WantedCurves&) const = default;
 };
 
 /// One thread owns the maker: it asks, and takes the curves. Neither ever waits.
@@ -36,14 +32,11 @@ class CurveMaker {
         const CurveSubject&, std::uint32_t step, const std::stop_token&)>;
 
     explicit CurveMaker(Measure measure);
-    ~CurveMaker(); ///< stops the step that is being measured
-    CurveMaker(const CurveMaker&) = delete;
-    CurveMaker& operator=(const CurveMaker&) = delete;
 
     /// Sets the function that is called, on the maker's thread, when there is something new.
-    void set_wake(std::function<void()> wake);
+    void set_wake(std::function<void()> wake) { asker_.set_wake(std::move(wake)); }
     /// Keeps whole curves in a folder from now on; before the first `update`.
-    void keep_in(KeptCurves kept);
+    void keep_in(KeptCurves kept) { tools_.kept = std::move(kept); }
 
     /// Called once a frame. Subjects that were there before keep what is known of them; a step that is
     /// being measured of another one is given up.
@@ -51,7 +44,7 @@ class CurveMaker {
     /// The curves of the subjects of the last `update`, in their order.
     std::vector<StepCurvePtr> curves();
     /// Why steps could not be measured, the last reason; empty: all could.
-    std::string failure() const;
+    const std::string& failure() const { return failure_; }
     /// Blocks until nothing is left to do that may be begun: for replays and tests.
     void finish();
 
@@ -60,30 +53,42 @@ class CurveMaker {
     struct Job {
         StepCurve curve;
         bool looked = false;      ///< for a kept one
+        bool measured = false;    ///< in part, since it was kept
         StepCurvePtr shared = {}; ///< null: it has changed since
     };
-    /// What is done next: a step of a job, or without a step the look for a kept curve.
-    struct Task {
-        std::size_t job;
-        std::optional<std::uint32_t> step;
+    struct Tools {
+        Measure measure;
+        std::optional<KeptCurves> kept;
     };
-    std::optional<Task> next() const;
-    std::optional<std::uint32_t> next_step(const Job& job) const;
-    void work(const std::stop_token& stop);
-    void do_task(const Task& task, std::unique_lock<std::mutex>& lock);
+    /// What is done next for a subject: the steps in their order, as many as fit in a turn. Without
+    /// steps, the whole curve is kept, or looked for if there is none.
+    struct Task {
+        const Tools* tools;
+        CurveSubject subject;
+        std::vector<std::uint32_t> steps = {};
+        StepCurvePtr whole = {};
+    };
+    struct Done {
+        CurveSubject subject;
+        std::string failure = {}; ///< why the last step that failed could not be measured
+        std::optional<StepCurve> kept = {};
+        std::vector<std::pair<std::uint32_t, std::vector<double>>> steps =
+            {}; ///< with their numbers
+    };
+    static Done do_task(const Task& task, const Asking& asking);
+    void take();
+    void ask();
+    std::optional<Task> next();
+    std::vector<std::uint32_t> next_steps(const StepCurve& curve) const;
     Job* job_of(const CurveSubject& subject);
+    static const StepCurvePtr& share(Job& job);
 
-    const Measure measure_;
-    std::optional<KeptCurves> kept_;
-    mutable std::mutex mutex_; ///< guards all below
-    std::condition_variable_any changed_;
+    Tools tools_;
     WantedCurves wanted_;
-    std::vector<Job> jobs_;                ///< in the order of the subjects
-    std::optional<CurveSubject> measured_; ///< subject of the step that is being measured
-    std::stop_source stop_step_;
+    std::vector<Job> jobs_;             ///< in the order of the subjects
+    std::optional<CurveSubject> asked_; ///< subject of the task that is being done
     std::string failure_;
-    std::function<void()> wake_; ///< may be null
-    std::jthread worker_;        ///< last member: starts after, and joins before, all the others
+    Asker<Task, Done> asker_; ///< last: its thread uses the tools
 };
 
 /// Measures in the index, with a cache of its own, so that the picture's steps stay at hand.

@@ -4,8 +4,6 @@
 #include "app/config/first_placement.h"
 #include "interaction/tools/clip_box.h"
 
-#include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace isochron::app {

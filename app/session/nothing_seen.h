@@ -25,9 +25,9 @@ class NothingSeen {
         : arrays_(arrays), outputs_(outputs) {}
     void set_wake(std::function<void()> wake) { surveyor_.set_wake(std::move(wake)); }
 
-    /// What the eyes see from.
+    /// What decides what the eyes see.
     struct Seen {
-        const index::ExtractionPtr& cells; ///< that are drawn; may be null
+        const index::ExtractionPtr& cells; ///< drawn cells; may be null
         const Audience& audience;
         bool in_window; ///< one window at a desk shows all that is seen
         /// Where the data are ahead of the viewer, and whole.
@@ -42,9 +42,9 @@ class NothingSeen {
     const StepSurvey* survey() const { return surveyor_.survey(); }
 
   private:
-    /// What all cells had to be looked at for.
+    /// The picture for which all cells were looked at last.
     struct Known {
-        std::uint64_t extraction = 0; ///< number of it
+        std::uint64_t extraction = 0; ///< number of the extraction
         std::uint32_t visible = 0;    ///< a bit for each surface
         std::vector<interaction::ClipPlane> cuts;
         std::optional<BoxCorners> box;

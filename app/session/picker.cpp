@@ -2,7 +2,6 @@
 #include "app/session/picker.h"
 
 #include "app/config/first_placement.h"
-#include "index/extraction/cell_ray.h"
 #include "index/extraction/value_in_index.h"
 #include "interaction/tools/clip_box.h"
 
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <limits>
 #include <span>
-#include <utility>
 
 namespace isochron::app {
 namespace {

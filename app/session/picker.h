@@ -7,7 +7,6 @@
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extraction.h"
 #include "index/extraction/instant_surfaces.h"
-#include "index/extraction/slice_values.h"
 #include "index/file/index_file.h"
 #include "interaction/input/device_reading.h"
 #include "interaction/input/tracked_input.h"

@@ -14,8 +14,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <utility>
-
 namespace isochron::app {
 namespace {
 

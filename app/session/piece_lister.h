@@ -46,7 +46,6 @@ class PieceLister {
     void take();
 
     std::optional<PieceOrder> looked_at_; ///< by a panel in the last frame
-    std::optional<Wanted> asked_;
     Listed last_;
     bool lists_ = false;
     Asker<Wanted, Listed> listing_;

@@ -12,7 +12,7 @@ namespace isochron::app {
 Preparation::Preparation(const render::Gl& gl, Scene& scene, Target target,
                          std::unique_ptr<stereo::GlContext> beside)
     : gl_(gl), scene_(scene), target_(std::move(target)), drawing_(scene.cell_drawing()),
-      parts_(scene.parts_left()), beside_(std::move(beside)), ahead_(beside_ ? 0 : parts_.size()) {
+      ways_(scene.ways_left()), beside_(std::move(beside)), ahead_(beside_ ? 0 : ways_.size()) {
     if (beside_)
         thread_ = std::jthread([this](const std::stop_token& stop) { draw_ahead(stop); });
 }
@@ -28,8 +28,8 @@ void Preparation::set_wake(std::function<void()> wake) {
     wake_ = std::move(wake);
 }
 
-void Preparation::through_with(std::size_t parts) {
-    ahead_ = parts;
+void Preparation::through_with(std::size_t ways) {
+    ahead_ = ways;
     const std::lock_guard lock(mutex_);
     if (wake_)
         wake_();
@@ -43,10 +43,10 @@ void Preparation::draw_ahead(const std::stop_token& stop) {
         render::CellPass cells(gl, drawing_.shapes, drawing_.prelude);
         MovingCells moving(gl, drawing_.grid);
         std::optional<render::RenderTarget> picture;
-        for (std::size_t i = 0; i < parts_.size() && !stop.stop_requested(); ++i) {
+        for (std::size_t i = 0; i < ways_.size() && !stop.stop_requested(); ++i) {
             stereo::draw_views(gl, picture, target_.size, target_.options, target_.views,
                                [&](std::span<const render::View> views) {
-                                   warm_up.draw(parts_[i], cells, moving, views, drawing_);
+                                   warm_up.draw(ways_[i], cells, moving, views, drawing_);
                                });
             gl.Finish();
             through_with(i + 1);
@@ -54,7 +54,7 @@ void Preparation::draw_ahead(const std::stop_token& stop) {
     } catch (const std::exception&) { // then the session's context does all of it
     }
     beside_->leave();
-    through_with(parts_.size());
+    through_with(ways_.size());
 }
 
 bool Preparation::advance() {
@@ -62,7 +62,7 @@ bool Preparation::advance() {
         return false;
     stereo::draw_views(
         gl_, picture_, target_.size, target_.options, target_.views,
-        [&](std::span<const render::View> views) { scene_.prepare(parts_[next_], views); });
+        [&](std::span<const render::View> views) { scene_.prepare(ways_[next_], views); });
     ++next_;
     return true;
 }

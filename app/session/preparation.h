@@ -33,7 +33,7 @@ class Preparation {
         stereo::DisplayOptions options;
     };
 
-    /// @param gl of the session @param scene draws the parts that it lacks; outlives this
+    /// @param gl of the session @param scene draws in the ways that it lacks; outlives this
     /// @param beside current on no thread; null: there is none
     Preparation(const render::Gl& gl, Scene& scene, Target target,
                 std::unique_ptr<stereo::GlContext> beside);
@@ -41,24 +41,24 @@ class Preparation {
 
     /// Sets the function that the thread calls when `advance` may have something to do.
     void set_wake(std::function<void()> wake);
-    /// Draws the next part in the session's context, if the thread is through with it.
+    /// Draws in the next way in the session's context, if the thread is through with it.
     /// @return whether it has
     bool advance();
-    bool is_done() const { return next_ == parts_.size(); }
+    bool is_done() const { return next_ == ways_.size(); }
 
   private:
     void draw_ahead(const std::stop_token& stop);
-    void through_with(std::size_t parts);
+    void through_with(std::size_t ways);
 
     const render::Gl& gl_;
     Scene& scene_;
     const Target target_;
     const CellDrawing drawing_;
-    const std::vector<std::size_t> parts_;
+    const std::vector<std::size_t> ways_;
     std::unique_ptr<stereo::GlContext> beside_;
     std::optional<render::RenderTarget> picture_;
-    std::size_t next_ = 0;           ///< part that `advance` draws next
-    std::atomic<std::size_t> ahead_; ///< parts that the thread is through with
+    std::size_t next_ = 0;           ///< way in which `advance` draws next
+    std::atomic<std::size_t> ahead_; ///< ways that the thread is through with
     std::mutex mutex_;
     std::function<void()> wake_; ///< may be null
     std::jthread thread_;        ///< last: it uses all the others

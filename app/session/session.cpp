@@ -16,7 +16,6 @@
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
-#include <utility>
 
 namespace isochron::app {
 
@@ -277,12 +276,12 @@ void Session::warm_up(const std::function<bool(float)>& goes_on) {
                   },
                   {});
     Outputs::PartPlace place;
-    std::size_t part = 0;
+    std::size_t way = 0;
     float share = 0; // share of the window that is drawn
     for (bool whole = false; !whole && goes_on(share);)
         whole = outputs_.draw_part(
             picture.audience, place, [&](const ScenePlace&, std::span<const render::View> views) {
-                share = scene_.warm_up(picture, views, part = place.begins ? 0 : part + 1);
+                share = scene_.warm_up(picture, views, way = place.begins ? 0 : way + 1);
                 return share >= 1;
             });
     outputs_.prepare_mean();

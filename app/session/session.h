@@ -113,8 +113,9 @@ class Session {
         return panel_.feed(events, state_);
     }
 
-    /// Draws everything once off screen, in small parts: drivers compile shaders when they are first
-    /// used. @param goes_on asked before each part, with the share that is done: false ends it
+    /// Draws everything once off screen, and a cell in each way: drivers compile shaders when they are
+    /// first used.
+    /// @param goes_on asked before each way, with the share of the ways that is done: false ends it
     void warm_up(const std::function<bool(float)>& goes_on = [](float) { return true; });
     /// Instead of `warm_up`, for one window with one viewport: draws off screen what the first picture
     /// needs, and leaves all else to `prepare_some`.

@@ -3,7 +3,6 @@
 
 #include "app/end_in_time.h"
 #include "app/text.h"
-#include "index/error.h"
 #include "index/file/color_source.h"
 #include "index/measure/kept_pieces.h"
 #include "index/system/new_file.h"
@@ -14,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <system_error>
 #include <utility>
 
@@ -54,9 +52,7 @@ fs::path write_table(const fs::path& folder, const char* name, const std::string
     std::error_code ignored;
     for (int number = 1; number == 1 || fs::exists(fs::symlink_status(path, ignored)); ++number)
         path = folder / fmt::format("isochron_{}_{:04}.csv", name, number);
-    index::NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(text)));
-    file.commit();
+    index::write_file(path, text);
     return path;
 }
 
@@ -95,7 +91,7 @@ void SessionCurves::write_to(CurveFolders folders) {
 void SessionCurves::update_profile(const Frame& frame, const ShownArrays& arrays, bool seen) {
     const auto take = [&] {
         for (Profiled& each : profiling_.take()) {
-            profiles_ = false;
+            profile_comes_ = false;
             profiled_ = std::move(each);
         }
     };
@@ -106,9 +102,9 @@ void SessionCurves::update_profile(const Frame& frame, const ShownArrays& arrays
         return;
     const index::ProfileQuery query{arrays.held(frame.state), frame.state.shown_instant(),
                                     ruler->places};
-    if (profiled_.query == query || profiles_)
+    if (profiled_.query == query || profile_comes_)
         return;
-    profiles_ = profiling_.ask(query);
+    profile_comes_ = profiling_.ask(query);
     if (frame.is_live() && frame.sharing.alone())
         return;
     const DrawsOnly waits; // replays, and all walls, show the same
@@ -123,7 +119,6 @@ void SessionCurves::update(const Frame& frame, const ShownArrays& arrays,
     const bool seen = state.room_panel.shown || (state.panel && frame.is_live());
     WantedCurves wanted;
     wanted.now = state.shown_instant().step;
-    wanted.rest = true;
     wanted.paused = frame.is_live() && extractor.busy();
     of_surface_.assign(state.isosurfaces.size(), std::nullopt);
     of_mark_.reset();

@@ -24,7 +24,7 @@ std::optional<glm::dvec3> marked_place(const interaction::Settings& settings);
 
 /// Where curves are written.
 struct CurveFolders {
-    std::optional<std::filesystem::path> kept; ///< that of KeptCurves; none: no curve is kept
+    std::optional<std::filesystem::path> kept; ///< folder of KeptCurves; none: no curve is kept
     std::filesystem::path tables;              ///< unless the user chooses another one
 };
 
@@ -60,8 +60,8 @@ class SessionCurves {
     std::optional<std::size_t> of_mark_;
     bool only_whole_ = false; ///< curves that grow differ from wall to wall
     CurveMaker maker_;
-    Profiled profiled_;                              ///< the last one
-    bool profile_wanted_ = false, profiles_ = false; ///< a panel shows it; one is being made
+    Profiled profiled_;                                   ///< the last one
+    bool profile_wanted_ = false, profile_comes_ = false; ///< a panel shows it; it is being made
     Asker<index::ProfileQuery, Profiled> profiling_;
     BackgroundWork writing_;
 };

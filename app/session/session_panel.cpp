@@ -5,7 +5,6 @@
 #include "interaction/navigation/navigation.h"
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include <ctime>
 #include <utility>

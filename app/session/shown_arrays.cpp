@@ -72,8 +72,8 @@ std::shared_ptr<const index::IndexFile> ShownArrays::held(const ExplorerState& s
 
 void ShownArrays::expect(const std::string& name) const {
     if (!name.empty() && !file_->array_called(name))
-        throw index::Error(fmt::format("{}: no array {}, expected {}", file_->name(), name,
-                                       fmt::join(names_, ", ")));
+        throw index::Error("{}: no array {}, expected {}", file_->name(), name,
+                           fmt::join(names_, ", "));
 }
 
 bool ShownArrays::turn(const ExplorerState& before, const ExplorerState& now) {

@@ -5,7 +5,6 @@
 #include "index/search/index_search.h"
 
 #include <optional>
-#include <vector>
 
 namespace isochron::app {
 namespace {

@@ -7,11 +7,9 @@
 #include "index/surface/coarse_planes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <ranges>
 #include <set>
-#include <utility>
 
 namespace isochron::index {
 namespace {

@@ -1,5 +1,5 @@
-// Active cells of a volume where coarser levels of detail have none: specks, thin parts and bulges
-// that the levels' means lose.
+// Active cells of a volume where coarser levels of detail have none: specks, thin sheets and bulges
+// that are lost in the means of these levels.
 #pragma once
 
 #include "index/detail/detail_regions.h"
@@ -14,11 +14,11 @@
 namespace isochron::index {
 
 /// An active cell of the finest level that an index has is lost if its region has a coarser level,
-/// and the cell of that coarser level around it holds no part of any drawn cell.
+/// and no drawn cell reaches into the cell of that coarser level around it.
 class LostCells {
   public:
-    /// Chunks that are read, about, at most. If more chunks may hold lost cells, only those are read
-    /// in which nothing at all is drawn; and if these are still too many, they are thinned.
+    /// About the most chunks that are read. If more chunks may hold lost cells, only those are read in
+    /// which nothing at all is drawn; and if these are still too many, they are thinned.
     static constexpr std::size_t kMostChunks = std::size_t{1} << 14;
 
     /// @param finest level that the index has chunks of

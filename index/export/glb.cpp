@@ -7,7 +7,6 @@
 #include "index/export/surface_writer.h"
 #include "index/system/new_file.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -125,9 +124,9 @@ class GlbFile {
         text.resize((text.size() + 3) / 4 * 4, ' ');
         const std::uint64_t whole = 12 + 8 + text.size() + (bytes > 0 ? 8 + bytes : 0);
         if (whole > std::numeric_limits<std::uint32_t>::max())
-            throw Error(fmt::format("{}: {} bytes, expected fewer than 2^32 in GLB; export fewer "
-                                    "steps, or each to a file of its own (--format glb)",
-                                    path_.string(), whole));
+            throw Error("{}: {} bytes, expected fewer than 2^32 in GLB; export fewer steps, or "
+                        "each to a file of its own (--format glb)",
+                        path_.string(), whole);
         NewFile file(path_);
         BufferedSink out(file);
         const auto put = [&](std::uint64_t number) { out.put(static_cast<std::uint32_t>(number)); };

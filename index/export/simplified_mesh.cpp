@@ -6,7 +6,6 @@
 #include "index/surface/mesh_crop.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace isochron::index {
 namespace {

@@ -31,8 +31,8 @@ class StlWriter : public SurfaceWriter {
                const std::filesystem::path& path) const {
         const std::uint64_t triangles = surface.mesh->triangles();
         if (triangles > std::numeric_limits<std::uint32_t>::max())
-            throw Error(fmt::format("{}: {} triangles, expected fewer than 2^32 in STL",
-                                    path.string(), triangles));
+            throw Error("{}: {} triangles, expected fewer than 2^32 in STL", path.string(),
+                        triangles);
         NewFile file(path);
         BufferedSink out(file);
         const ExportedPlaces places(*step.grid, plan_);

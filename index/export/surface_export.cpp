@@ -15,10 +15,8 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
-#include <functional>
 #include <limits>
 #include <mutex>
-#include <stop_token>
 #include <thread>
 #include <utility>
 

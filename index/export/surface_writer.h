@@ -9,12 +9,10 @@
 
 #include "index/export/exported_step.h"
 
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
-#include <map>
 #include <utility>
 
 namespace isochron::index {

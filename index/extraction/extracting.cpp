@@ -9,8 +9,6 @@
 #include "index/measure/mesh_pieces.h"
 #include "index/surface/mesh_colors.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <limits>
@@ -37,7 +35,7 @@ class Extracting {
     ExtractionPtr operator()(const SurfacesQuery& query, const std::stop_token& stop) {
         const std::size_t count = query.isovalues.size();
         if (count < 1 || count > kMostSurfaces)
-            throw Error(fmt::format("{} isovalues: expected 1 to {}", count, kMostSurfaces));
+            throw Error("{} isovalues: expected 1 to {}", count, kMostSurfaces);
         auto result = std::make_shared<Extraction>();
         result->query = query;
         result->number = ++last_number;

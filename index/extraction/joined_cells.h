@@ -6,7 +6,6 @@
 #include "index/surface/mesh_maker.h"
 #include "index/volume/grid.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -3,7 +3,6 @@
 
 #include "index/extraction/extraction.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <list>
 #include <optional>

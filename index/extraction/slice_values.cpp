@@ -4,8 +4,6 @@
 #include "index/error.h"
 #include "index/file/step_view.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -22,8 +20,8 @@ SliceValues slice_values(const IndexFile& array, const SliceQuery& query,
     const StepView step =
         array.referral() ? step_of(array, query.instant) : part_of_step(array, query.instant);
     if (std::max(runs.values(), runs.columns()) > kMostSliceValues)
-        throw Error(fmt::format("{}: a slice of {} values, expected at most {}", array.name(),
-                                std::max(runs.values(), runs.columns()), kMostSliceValues));
+        throw Error("{}: a slice of {} values, expected at most {}", array.name(),
+                    std::max(runs.values(), runs.columns()), kMostSliceValues);
     SliceValues slice = runs.empty_slice(whole, step.type(), step.scaling());
     if (!step.by_chunks()) {
         const LoadedStep& loaded = step.whole(stop);

@@ -4,7 +4,6 @@
 #include "index/surface/cell_colors.h"
 
 #include <algorithm>
-#include <span>
 
 namespace isochron::index {
 

@@ -5,10 +5,7 @@
 #include "index/file/step_view.h"
 
 #include <cstddef>
-#include <cstdint>
-#include <memory>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>

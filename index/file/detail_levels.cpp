@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
 #include <type_traits>
 
 #undef HWY_TARGET_INCLUDE

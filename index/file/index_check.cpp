@@ -1,5 +1,4 @@
 // Reads everything that a checksum covers, and what lies between.
-#include "index/error.h"
 #include "index/file/index_file.h"
 #include "index/system/parallel.h"
 #include "index/system/read_ahead.h"

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -271,7 +270,7 @@ const StepValues& IndexFile::values() const {
         static_cast<std::byte*>(std::aligned_alloc(kPage, bytes)),
         [](std::byte* taken) { std::free(taken); });
     if (!memory)
-        throw Error(fmt::format("{}: no memory for {} bytes", bytes_->name(), bytes));
+        throw Error("{}: no memory for {} bytes", bytes_->name(), bytes);
     for (std::uint32_t step = 0; step < info.steps(); ++step)
         std::memcpy(memory.get() + step * all.stride, load(step).values.step_bytes(step).data(),
                     info.step_bytes());
@@ -306,7 +305,7 @@ void IndexFile::verify(const Progress& progress) const {
 }
 
 Error IndexFile::damaged(const std::string& what) const {
-    return Error(fmt::format("{}: damaged: {}", bytes_->name(), what));
+    return Error("{}: damaged: {}", bytes_->name(), what);
 }
 Error IndexFile::mismatch(SectionKind kind) const {
     return damaged(fmt::format("the checksum of section {} does not match", section_name(kind)));

@@ -165,9 +165,7 @@ class IndexSeries final : public VolumeSeries {
             refuse(fmt::format("damaged: the checksum of step {} does not match", step));
     }
 
-    [[noreturn]] void refuse(const std::string& what) const {
-        throw Error(fmt::format("{}: {}", name_, what));
-    }
+    [[noreturn]] void refuse(const std::string& what) const { throw Error("{}: {}", name_, what); }
 
     template <class T>
     std::vector<T> section(const Section& where, std::uint64_t count) const {

@@ -25,9 +25,10 @@ bool is_whole(const ByteSource& file, const Section& section) {
     return checksum_of(bytes) == section.checksum;
 }
 
-/// A number that changes with every state of a file that grows.
+/// A number that changes with every state of a file that grows, and with the size that was found when it
+/// was opened, perhaps in an earlier state.
 std::uint64_t newest_state(const ByteSource& bytes) {
-    std::uint64_t state = 0;
+    std::uint64_t state = bytes.size();
     for (std::uint64_t slot = 0; slot < kHeaderSlots; ++slot) {
         HeaderSlot stored{};
         const std::uint64_t at = slot * kHeaderBytes;
@@ -44,9 +45,10 @@ std::uint64_t newest_state(const ByteSource& bytes) {
 std::shared_ptr<const IndexFile> open_newest(const OpenBytes& open, std::uint64_t cache_bytes) {
     constexpr int kMostTimes = 8;
     for (int time = 1;; ++time) {
-        const std::uint64_t state = newest_state(*open());
+        std::unique_ptr<ByteSource> bytes = open();
+        const std::uint64_t state = newest_state(*bytes);
         try {
-            return IndexFile::open(open(), cache_bytes);
+            return IndexFile::open(std::move(bytes), cache_bytes);
         } catch (const Error&) {
             if (time == kMostTimes || newest_state(*open()) == state)
                 throw;

@@ -7,7 +7,6 @@
 #include "index/system/links/link_source.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace isochron::index {
 namespace {

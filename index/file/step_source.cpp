@@ -7,8 +7,6 @@
 #include "index/file/sections/metadata.h"
 #include "index/system/new_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -46,9 +44,9 @@ void StepSource::open_sources() {
     const SeriesInfo& now = series->info();
     if (now.grid.vertices != info_.grid.vertices || now.type != info_.type ||
         now.steps() < info_.steps())
-        throw Error(fmt::format("{}: its sources have changed since it was built: {} steps, "
-                                "expected {} of the same grid and type",
-                                index_.string(), now.steps(), info_.steps()));
+        throw Error("{}: its sources have changed since it was built: {} steps, expected {} of the "
+                    "same grid and type",
+                    index_.string(), now.steps(), info_.steps());
     series_ = std::move(series);
 }
 
@@ -88,10 +86,10 @@ LoadedStep StepSource::load(std::uint32_t step) {
             series_->read(step, stored);
         }
         if (checksum_of(stored) != checksums_[step])
-            throw Error(fmt::format(
+            throw Error(
                 "{}: its source {} has changed since it was built (step {})", index_.string(),
                 info_.sources.size() == info_.steps() ? info_.sources[step] : info_.sources.back(),
-                step));
+                step);
         kept_.push_back({step, std::move(words)});
         found = kept_.end() - 1;
     }

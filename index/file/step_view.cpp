@@ -4,7 +4,6 @@
 #include "index/volume/stored_cut.h"
 
 #include <cstring>
-#include <memory>
 
 namespace isochron::index {
 

@@ -61,15 +61,14 @@ void expect_unchanged(const std::string& name, VolumeSeries& all, std::size_t he
         if (checksum.take() == checksums[step])
             continue;
         const std::vector<std::string>& sources = all.info().sources;
-        throw Error(fmt::format(
-            "{}: cannot be appended to: its source {} has changed under step {}{}", name,
-            sources.size() == all.info().steps() ? sources[step]
-            : sources.empty()                    ? "?"
-                                                 : sources.back(),
-            step,
-            read_alike ? ""
-                       : ", or is read otherwise than by the version that built it: "
-                         "build it again without --append"));
+        throw Error("{}: cannot be appended to: its source {} has changed under step {}{}", name,
+                    sources.size() == all.info().steps() ? sources[step]
+                    : sources.empty()                    ? "?"
+                                                         : sources.back(),
+                    step,
+                    read_alike ? ""
+                               : ", or is read otherwise than by the version that built it: "
+                                 "build it again without --append");
     }
 }
 
@@ -81,10 +80,10 @@ std::unique_ptr<VolumeSeries> append_to(std::shared_ptr<const IndexFile> index,
     const SeriesInfo &held = index->info(), &given = all->info();
     const bool read_alike = index->metadata().reading_number == kReading;
     const auto refuse = [&](const std::string& what) {
-        throw Error(fmt::format("{}: cannot be appended to: {}{}", name, what,
-                                read_alike ? ""
-                                           : "; it was built by a version that may have read the "
-                                             "files otherwise: build it again without --append"));
+        throw Error("{}: cannot be appended to: {}{}", name, what,
+                    read_alike ? ""
+                               : "; it was built by a version that may have read the "
+                                 "files otherwise: build it again without --append");
     };
     if (given.grid != held.grid || given.type != held.type || given.scaling != held.scaling ||
         given.array != held.array)
@@ -111,15 +110,14 @@ std::unique_ptr<VolumeSeries> append_colors_to(std::shared_ptr<const IndexFile> 
     const ColorArray* held = index->color();
     const std::string given = all ? all->info().array : "";
     if ((held ? held->array : "") != given)
-        throw Error(fmt::format("{}: cannot be appended to: it holds {}, {} given", name,
-                                held ? "the colors " + held->array : "no colors",
-                                all ? "the colors " + given : "none"));
+        throw Error("{}: cannot be appended to: it holds {}, {} given", name,
+                    held ? "the colors " + held->array : "no colors",
+                    all ? "the colors " + given : "none");
     if (!all)
         return nullptr;
     if (held->type != all->info().type || held->scaling != all->info().scaling)
-        throw Error(fmt::format("{}: cannot be appended to: its colors {} differ in type or "
-                                "scaling",
-                                name, given));
+        throw Error("{}: cannot be appended to: its colors {} differ in type or scaling", name,
+                    given);
     const bool read_alike = index->metadata().reading_number == kReading;
     const std::vector<std::uint64_t> unknown(index->info().steps(), 0);
     expect_unchanged(name, *all, index->info().steps(), index->color_checksums(),

@@ -4,17 +4,13 @@
 #include "index/error.h"
 #include "index/file/detail_levels.h"
 
-#include <fmt/format.h>
-
-#include <utility>
-
 namespace isochron::index {
 
 void expect_colors_of(const SeriesInfo& colors, const SeriesInfo& volume) {
     if (colors.grid.vertices != volume.grid.vertices || colors.times != volume.times)
-        throw Error(fmt::format("array {}: {} vertices and {} steps, array {} has {} and {}",
-                                colors.array, colors.grid.vertex_count(), colors.steps(),
-                                volume.array, volume.grid.vertex_count(), volume.steps()));
+        throw Error("array {}: {} vertices and {} steps, array {} has {} and {}", colors.array,
+                    colors.grid.vertex_count(), colors.steps(), volume.array,
+                    volume.grid.vertex_count(), volume.steps());
 }
 
 ColorPass::ColorPass(VolumeSeries& series, std::size_t first, const ColorArray* held,

@@ -14,8 +14,6 @@
 #include "index/system/input_file.h"
 #include "index/system/parallel.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <deque>
 #include <set>
@@ -36,16 +34,15 @@ void refuse_foreign_file(const std::filesystem::path& out) {
     std::array<char, 8> start{};
     const std::size_t got = InputFile(out).read(0, std::as_writable_bytes(std::span(start)));
     if (got > 0 && start != FileHeader{}.magic)
-        throw Error(
-            fmt::format("{}: exists and is not an isochron index: not replaced", out.string()));
+        throw Error("{}: exists and is not an isochron index: not replaced", out.string());
 }
 
 /// A new index can be shown. One that holds a larger grid, as others could be built, may still grow.
 void check_can_be_shown(const Grid& grid) {
     if (grid.vertex_count() > kMostVertices)
-        throw Error(fmt::format("{} vertices, expected at most 2^35 in a step; --crop reads a part "
-                                "of the grid, --stride 2 every second vertex",
-                                grid.vertex_count()));
+        throw Error("{} vertices, expected at most 2^35 in a step; --crop reads a part of the "
+                    "grid, --stride 2 every second vertex",
+                    grid.vertex_count());
 }
 
 void check_array(const SeriesInfo& info, const BuildOptions& options, bool is_new) {
@@ -54,12 +51,10 @@ void check_array(const SeriesInfo& info, const BuildOptions& options, bool is_ne
         check_can_be_shown(info.grid);
     const bool tree = options.with_tree || (options.tiers && options.tiers->has(Tier::tree));
     if (tree && has_wide_ids(info.grid))
-        throw Error(fmt::format("{} cells, expected fewer than 2^32 for the tier tree",
-                                info.grid.cell_count()));
+        throw Error("{} cells, expected fewer than 2^32 for the tier tree", info.grid.cell_count());
     if (options.referral && has_wide_ids(info.grid))
-        throw Error(fmt::format("{} cells, expected fewer than 2^32 for an index that refers to "
-                                "its sources",
-                                info.grid.cell_count()));
+        throw Error("{} cells, expected fewer than 2^32 for an index that refers to its sources",
+                    info.grid.cell_count());
 }
 
 void check_options(const SeriesInfo& info, const BuildOptions& options, bool is_new) {
@@ -68,22 +63,19 @@ void check_options(const SeriesInfo& info, const BuildOptions& options, bool is_
         if (options.color)
             expect_colors_of(options.color->info(), info);
         if (options.further.size() >= kMostArrays)
-            throw Error(fmt::format("{} arrays, expected at most {}", options.further.size() + 1,
-                                    kMostArrays));
+            throw Error("{} arrays, expected at most {}", options.further.size() + 1, kMostArrays);
         std::set<std::string> names{info.array};
         for (const FurtherArray& array : options.further) {
             const SeriesInfo& further = array.series->info();
             check_array(further, options, is_new);
             expect_colors_of(further, info);
             if (further.grid != info.grid)
-                throw Error(fmt::format("arrays {} and {} lie at different places", info.array,
-                                        further.array));
+                throw Error("arrays {} and {} lie at different places", info.array, further.array);
             if (!names.insert(further.array).second)
-                throw Error(fmt::format("array {} is given twice", further.array));
+                throw Error("array {} is given twice", further.array);
         }
     } catch (const Error& error) {
-        throw Error(fmt::format("{}: {}", info.sources.empty() ? "series" : info.sources.front(),
-                                error.what()));
+        throw Error("{}: {}", info.sources.empty() ? "series" : info.sources.front(), error.what());
     }
 }
 

@@ -2,7 +2,6 @@
 #include "index/indexing/parallel_steps.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace isochron::index {
 namespace {

@@ -4,7 +4,6 @@
 #include "index/system/huge_pages.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace isochron::index {
 namespace {

@@ -5,7 +5,6 @@
 #include "index/system/byte_sink.h"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace isochron::index {

@@ -10,7 +10,6 @@
 
 #include <deque>
 #include <functional>
-#include <optional>
 #include <utility>
 
 namespace isochron::index {

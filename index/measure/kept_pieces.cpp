@@ -9,11 +9,9 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 
 namespace isochron::index {
 namespace {

@@ -6,7 +6,6 @@
 #include "index/measure/kept_pieces.h"
 #include "index/search/index_search.h"
 #include "index/surface/mesh_cases.h"
-#include "index/surface/mesh_crop.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -15,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <ranges>
-#include <span>
 
 namespace isochron::index {
 namespace {

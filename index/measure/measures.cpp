@@ -1,11 +1,9 @@
 // The table of measures, and how a surface is measured.
 #include "index/measure/measures.h"
 
-#include "index/error.h"
 #include "index/measure/measured_step.h"
 #include "index/surface/triangle_distance.h"
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 namespace isochron::index {
 namespace {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <unordered_map>
-#include <vector>
 
 namespace isochron::index {
 namespace {

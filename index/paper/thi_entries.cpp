@@ -8,8 +8,6 @@
 #include "index/system/parallel.h"
 #include "index/volume/cell_extremes.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace isochron::index {
@@ -118,7 +116,7 @@ classify(const Batches& batches, std::vector<Worker>& workers, std::span<const O
 void check(const StepValues& values, const ThiOptions& options) {
     const auto require = [](bool holds, std::string_view what, std::uint64_t got) {
         if (!holds)
-            throw Error(fmt::format("THI tree: {}, got {}", what, got));
+            throw Error("THI tree: {}, got {}", what, got);
     };
     require(options.lattice >= 1 && options.lattice <= 4096, "lattice from 1 to 4096 expected",
             options.lattice);

@@ -9,8 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <functional>
-#include <string_view>
 #include <vector>
 
 namespace isochron::index {

@@ -4,8 +4,6 @@
 #include "index/error.h"
 #include "index/paper/time_tree.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -40,7 +38,7 @@ ThiParts<Array> parts_of(const ThiHeader& header, std::span<Byte> bytes) {
 
 void require(bool holds, const char* what) {
     if (!holds)
-        throw Error(fmt::format("THI tree: {}", what));
+        throw Error("THI tree: {}", what);
 }
 
 void check_starts(const ThiHeader& header, std::span<const ThiNodeStart> starts) {

@@ -2,7 +2,6 @@
 #include "index/paper/thi_tree.h"
 
 #include "index/paper/span_space.h"
-#include "index/paper/time_tree.h"
 
 #include <cassert>
 #include <limits>

@@ -6,12 +6,9 @@
 #include "index/search/layer_search.h"
 #include "index/search/staying_cells.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -68,7 +65,7 @@ std::optional<CellChange> ChangeSearch::where_chunks_change(const Query& from, c
 CellChange ChangeSearch::operator()(const Query& from, const Query& to) {
     const std::size_t steps = file_->info().steps();
     if (const std::uint32_t last = std::max(from.instant.step, to.instant.step); last >= steps)
-        throw Error(fmt::format("step {}: expected 0 to {}", last, steps - 1));
+        throw Error("step {}: expected 0 to {}", last, steps - 1);
     if (from == to)
         return {};
     if (from.instant != to.instant && !from.instant.between() && !to.instant.between() &&

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstddef>
 #include <type_traits>
 
 #undef HWY_TARGET_INCLUDE

@@ -2,7 +2,6 @@
 #include "index/search/cube_shading.h"
 #include "index/volume/cell_difference.h"
 
-#include <array>
 #include <cassert>
 #include <cstddef>
 #include <type_traits>

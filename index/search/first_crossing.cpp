@@ -8,8 +8,6 @@
 #include "index/volume/blend.h"
 #include "index/volume/instant_text.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -294,8 +292,8 @@ CrossingsBetween crossings_between(std::shared_ptr<const IndexFile> file, std::s
 FirstCrossingsPtr first_crossings(const SeriesInfo& info, const Search& search, double isovalue,
                                   const std::stop_token& stop, const CrossingsBetween& between) {
     if (info.steps() >= FirstCrossings::kNever)
-        throw Error(fmt::format("first crossings of {} steps: expected fewer than {}", info.steps(),
-                                FirstCrossings::kNever));
+        throw Error("first crossings of {} steps: expected fewer than {}", info.steps(),
+                    FirstCrossings::kNever);
     auto found = std::make_shared<FirstCrossings>();
     found->isovalue = isovalue;
     found->steps.assign(info.grid.cell_count(), FirstCrossings::kNever);

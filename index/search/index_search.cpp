@@ -2,12 +2,9 @@
 #include "index/search/index_search.h"
 
 #include "index/error.h"
-#include "index/file/step_view.h"
 #include "index/search/id_sort.h"
 #include "index/search/layer_search.h"
 #include "index/search/tree_of_file.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -125,7 +122,7 @@ SearchMethod cheapest_method(const IndexFile& file) {
 
 StepView step_of_query(const IndexFile& file, Instant at, std::span<const double> isovalues) {
     if (const std::size_t steps = file.info().steps(); at.step >= steps)
-        throw Error(fmt::format("step {}: expected 0 to {}", at.step, steps - 1));
+        throw Error("step {}: expected 0 to {}", at.step, steps - 1);
     return step_of(file, at, isovalues);
 }
 

@@ -10,8 +10,6 @@
 #include "index/system/parallel.h"
 #include "index/volume/cell_walk.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -350,9 +348,9 @@ bool LayerSearch::color_cells(const StepView& step, const CellSet& set, const Co
 CellSet search_level(const std::shared_ptr<const IndexFile>& file, std::size_t level,
                      const Query& query) {
     if (level >= file->detail_levels())
-        throw Error(fmt::format("level {}: expected 0 to {}", level, file->detail_levels() - 1));
+        throw Error("level {}: expected 0 to {}", level, file->detail_levels() - 1);
     if (const std::size_t steps = file->info().steps(); query.instant.step >= steps)
-        throw Error(fmt::format("step {}: expected 0 to {}", query.instant.step, steps - 1));
+        throw Error("step {}: expected 0 to {}", query.instant.step, steps - 1);
     const bool by_bricks = file->plan().tiers.has(Tier::bricks);
     CellSet set;
     set.query = query;

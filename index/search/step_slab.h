@@ -9,9 +9,7 @@
 #include "index/volume/step_values.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <stop_token>
 #include <vector>

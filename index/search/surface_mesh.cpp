@@ -5,10 +5,7 @@
 #include "index/search/index_search.h"
 #include "index/search/layer_search.h"
 
-#include <fmt/format.h>
 #include <glm/vec3.hpp>
-
-#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -53,8 +50,7 @@ struct SurfaceMeshes::WorkSpace {
         std::optional<ColorSource> source;
         if (wishes.values) {
             if (const std::size_t count = ColorSource::count(*file); *wishes.values >= count)
-                throw Error(fmt::format("array {} to color by: {} has {}", *wishes.values,
-                                        file->name(), count));
+                throw Error("array {} to color by: {} has {}", *wishes.values, file->name(), count);
             source.emplace(*file, *wishes.values);
         }
         CellSet found;

@@ -34,7 +34,7 @@ std::shared_ptr<const ThiTree> tree_of(const IndexFile& file) {
         try {
             open = std::make_shared<const OpenTree>(std::move(bytes));
             if (const std::size_t steps = file.info().steps(); open->tree.steps() != steps)
-                throw Error(fmt::format("{} steps, the volume has {}", open->tree.steps(), steps));
+                throw Error("{} steps, the volume has {}", open->tree.steps(), steps);
         } catch (const Error& error) {
             throw file.damaged(fmt::format("tree: {}", error.what()));
         }

@@ -3,7 +3,6 @@
 
 #include "index/surface/mesh_cases.h"
 
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <vector>

@@ -18,11 +18,11 @@ struct VertexBox {
 
 bool is_within(const MeshVertex& vertex, const VertexBox& box);
 
-/// Removes triangles, the vertices that none is left to use, and the cases of cells that have none
-/// left; a cell with some left gets a case of as many. What stays keeps its order.
+/// Removes triangles, and vertices that no triangle uses any more. A cell that has no triangle left loses
+/// its case; a cell with some left gets a case of that many. What stays keeps its order.
 /// @param kept for each triangle, 0: it goes
 void keep_triangles(CellMesh& mesh, std::span<const std::uint8_t> kept);
-/// Removes those with a corner that is not to be kept.
+/// Removes the triangles of which `keeps` refuses a corner.
 void keep_triangles(CellMesh& mesh, const std::function<bool(const MeshVertex& corner)>& keeps);
 
 /// Removes vertices that no triangle uses.

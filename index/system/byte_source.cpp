@@ -5,8 +5,6 @@
 #include "index/system/input_file.h"
 #include "index/system/request_ring.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <mutex>
 #include <vector>
@@ -136,9 +134,8 @@ void ByteSource::read_all(Some some, std::uint64_t offset, std::span<std::byte> 
     while (!out.empty()) {
         const std::size_t count = (this->*some)(offset, out);
         if (count == 0)
-            throw Error(fmt::format("{}: truncated: nothing at byte {}, it had {} bytes when it "
-                                    "was opened",
-                                    name(), offset, size()));
+            throw Error("{}: truncated: nothing at byte {}, it had {} bytes when it was opened",
+                        name(), offset, size());
         bytes_read_ += count;
         offset += count;
         out = out.subspan(count);

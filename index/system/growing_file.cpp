@@ -4,8 +4,6 @@
 #include "index/error.h"
 #include "index/system/new_file.h"
 
-#include <fmt/format.h>
-
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -29,7 +27,7 @@ GrowingFile::GrowingFile(std::filesystem::path path, bool alone) : path_(std::mo
     if (!refused)
         return;
     ::close(file_);
-    throw Error(fmt::format("{}: cannot be written: {}", path_.string(), refused));
+    throw Error("{}: cannot be written: {}", path_.string(), refused);
 }
 
 GrowingFile::~GrowingFile() {
@@ -37,7 +35,7 @@ GrowingFile::~GrowingFile() {
 }
 
 void GrowingFile::fail(int error) const {
-    throw Error(fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(error)));
+    throw Error("{}: cannot be written: {}", path_.string(), std::strerror(error));
 }
 
 void GrowingFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {

@@ -14,7 +14,6 @@
 #include <cstring>
 #include <tuple>
 #include <unordered_map>
-#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -22,17 +21,17 @@ namespace {
 [[noreturn]] void refuse(const std::filesystem::path& path, int error) {
     const std::string name = path.string();
     if (error == ENOENT)
-        throw MissingFile(fmt::format("{}: there is no such file", name));
+        throw MissingFile("{}: there is no such file", name);
     if (error == ENXIO) // a socket, or a device that does not exist
-        throw Error(fmt::format("{}: not a regular file", name));
-    throw Error(fmt::format("{}: cannot be opened: {}", name, std::strerror(error)));
+        throw Error("{}: not a regular file", name);
+    throw Error("{}: cannot be opened: {}", name, std::strerror(error));
 }
 
 void expect_regular(const std::filesystem::path& path, const struct stat& status) {
     if (S_ISDIR(status.st_mode))
-        throw Error(fmt::format("{}: a folder, expected a file", path.string()));
+        throw Error("{}: a folder, expected a file", path.string());
     if (!S_ISREG(status.st_mode))
-        throw Error(fmt::format("{}: not a regular file", path.string()));
+        throw Error("{}: not a regular file", path.string());
 }
 
 FileState state_in(const struct stat& status) {
@@ -70,7 +69,7 @@ std::size_t read_at(int file, const std::filesystem::path& path, std::uint64_t o
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)
-            throw Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+            throw Error("{}: cannot be read: {}", path.string(), std::strerror(errno));
         if (got == 0)
             break;
         done += static_cast<std::size_t>(got);
@@ -153,7 +152,7 @@ int InputFile::descriptor() const {
         const auto [file, state] = opened(path_);
         if (state != seen_->state) {
             ::close(file);
-            throw Error(fmt::format("{}: changed while it was read", path_.string()));
+            throw Error("{}: changed while it was read", path_.string());
         }
         file_ = file;
     });
@@ -196,8 +195,7 @@ InputStream::Buffer::int_type InputStream::Buffer::underflow() {
 std::string read_text(const std::filesystem::path& path, std::uint64_t most) {
     const InputFile file(path);
     if (file.size() > most)
-        throw Error(
-            fmt::format("{}: {} bytes, expected at most {}", path.string(), file.size(), most));
+        throw Error("{}: {} bytes, expected at most {}", path.string(), file.size(), most);
     std::string text(file.size(), '\0');
     text.resize(file.read(0, std::as_writable_bytes(std::span(text))));
     return text;

@@ -4,8 +4,6 @@
 #include "index/error.h"
 #include "index/system/input_file.h"
 
-#include <fmt/format.h>
-
 #include <sys/mman.h>
 
 #include <cerrno>
@@ -20,8 +18,7 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
     if (size > 0) {
         address = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, file.descriptor(), 0);
         if (address == MAP_FAILED)
-            throw Error(
-                fmt::format("{}: cannot be mapped: {}", path.string(), std::strerror(errno)));
+            throw Error("{}: cannot be mapped: {}", path.string(), std::strerror(errno));
     }
     bytes_ = {static_cast<const std::byte*>(address), size};
 }

@@ -7,10 +7,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <limits>
-#include <string>
 
 namespace isochron::index {
 namespace {

@@ -74,18 +74,17 @@ fs::path file_of_program(const std::string& name) {
             way_out = fmt::format(
                 "; `apt install {}` and `./run build` where the program was built bring it",
                 package);
-    throw Error(
-        fmt::format("{}: not found beside the program in {}{}", name, folder.string(), way_out));
+    throw Error("{}: not found beside the program in {}{}", name, folder.string(), way_out);
 }
 
 void* module_symbol(const std::string& name, const std::string& symbol) {
     const fs::path place = file_of_program("lib" + name + ".so");
     void* handle = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!handle)
-        throw Error(fmt::format("{}: cannot be loaded: {}", place.string(), dlerror()));
+        throw Error("{}: cannot be loaded: {}", place.string(), dlerror());
     if (void* address = dlsym(handle, symbol.c_str()))
         return address;
-    throw Error(fmt::format("{}: has no {}", place.string(), symbol));
+    throw Error("{}: has no {}", place.string(), symbol);
 }
 
 } // namespace isochron::index

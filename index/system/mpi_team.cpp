@@ -2,8 +2,6 @@
 #include "index/error.h"
 #include "index/system/team.h"
 
-#include <fmt/format.h>
-
 #include <mpi.h>
 
 #include <cstdio>
@@ -46,8 +44,7 @@ class MpiTeam final : public Team {
             total += bytes;
             // All members see the same sizes, so all of them throw.
             if (total > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
-                throw Error(
-                    fmt::format("MPI: {} bytes to exchange, expected less than 2^31", total));
+                throw Error("MPI: {} bytes to exchange, expected less than 2^31", total);
         }
         std::vector<std::byte> all(total);
         MPI_Allgatherv(mine.data(), static_cast<int>(own), MPI_BYTE, all.data(), counts.data(),

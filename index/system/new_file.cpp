@@ -47,7 +47,7 @@ void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error)
-        throw Error(fmt::format("{}: cannot be made: {}", folder.string(), refusal(error.value())));
+        throw Error("{}: cannot be made: {}", folder.string(), refusal(error.value()));
 }
 
 fs::path end_of_links(fs::path path) {
@@ -57,8 +57,7 @@ fs::path end_of_links(fs::path path) {
     for (int links = 0; fs::is_symlink(path, error); ++links) {
         const fs::path to = fs::read_symlink(path, error);
         if (error || links == kMost)
-            throw Error(fmt::format("{}: cannot be written: its symbolic links lead nowhere",
-                                    given.string()));
+            throw Error("{}: cannot be written: its symbolic links lead nowhere", given.string());
         path = to.is_absolute() ? to : path.parent_path() / to;
     }
     return path;
@@ -68,12 +67,12 @@ NewFile::NewFile(fs::path target, Writers writers) : target_(std::move(target)) 
     std::error_code ignored;
     const fs::file_status status = fs::status(target_, ignored);
     if (!target_.has_filename() || (fs::exists(status) && !fs::is_regular_file(status)))
-        throw Error(fmt::format("{}: cannot be written: not a regular file", target_.string()));
+        throw Error("{}: cannot be written: not a regular file", target_.string());
     target_ = end_of_links(target_);
     const fs::path folder = folder_of(target_);
     if (!fs::is_directory(folder, ignored))
-        throw Error(fmt::format("{}: cannot be written: there is no folder {}", target_.string(),
-                                folder.string()));
+        throw Error("{}: cannot be written: there is no folder {}", target_.string(),
+                    folder.string());
     remove_remains_in(folder);
     temporary_ = temporary_name_of(target_);
     open_unnamed(folder);
@@ -143,7 +142,7 @@ NewFile::~NewFile() {
 }
 
 void NewFile::fail(int error) const {
-    throw Error(fmt::format("{}: cannot be written: {}", target_.string(), refusal(error)));
+    throw Error("{}: cannot be written: {}", target_.string(), refusal(error));
 }
 
 void NewFile::reserve(std::uint64_t bytes) {
@@ -207,8 +206,14 @@ void name_whole_file(const fs::path& written, const fs::path& target) {
     const fs::path name = end_of_links(target);
     const Descriptor file(::open(written.c_str(), O_RDWR | O_CLOEXEC));
     if (!file || ::fsync(file.number()) != 0 || ::rename(written.c_str(), name.c_str()) != 0)
-        throw Error(fmt::format("{}: cannot be written: {}", target.string(), refusal(errno)));
+        throw Error("{}: cannot be written: {}", target.string(), refusal(errno));
     flush_folder_of(name);
+}
+
+void write_file(const std::filesystem::path& target, std::span<const std::byte> bytes) {
+    NewFile file(target);
+    file.write_at(0, bytes);
+    file.commit();
 }
 
 } // namespace isochron::index

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 namespace isochron::index {
 
@@ -75,5 +76,11 @@ class NewFile final : public ByteSink {
     bool owner_ = true, named_ = false;
     LedgerEntry entry_; ///< while it has its temporary name
 };
+
+/// Writes a file that holds these bytes. @throws as NewFile does
+void write_file(const std::filesystem::path& target, std::span<const std::byte> bytes);
+inline void write_file(const std::filesystem::path& target, std::string_view text) {
+    write_file(target, std::as_bytes(std::span(text)));
+}
 
 } // namespace isochron::index

@@ -4,14 +4,11 @@
 #include "index/error.h"
 #include "index/system/new_file.h"
 
-#include <fmt/format.h>
-
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 
@@ -36,7 +33,7 @@ ScratchFile::~ScratchFile() {
 }
 
 void ScratchFile::fail(int error) const {
-    throw Error(fmt::format("{}: cannot be written: {}", beside_.string(), std::strerror(error)));
+    throw Error("{}: cannot be written: {}", beside_.string(), std::strerror(error));
 }
 
 void ScratchFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {

@@ -3,8 +3,6 @@
 
 #include "index/error.h"
 
-#include <fmt/format.h>
-
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -19,7 +17,7 @@ SharedMemory::SharedMemory(std::size_t bytes)
     constexpr int kSeals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
     if (!descriptor_ || ::ftruncate(descriptor_.number(), static_cast<off_t>(bytes)) != 0 ||
         ::fcntl(descriptor_.number(), F_ADD_SEALS, kSeals) != 0)
-        throw Error(fmt::format("{} bytes of shared memory: {}", bytes, std::strerror(errno)));
+        throw Error("{} bytes of shared memory: {}", bytes, std::strerror(errno));
     map(bytes);
 }
 
@@ -27,7 +25,7 @@ SharedMemory::SharedMemory(Descriptor theirs, std::size_t bytes) : descriptor_(s
     struct stat status{};
     if (::fstat(descriptor_.number(), &status) != 0 ||
         static_cast<std::size_t>(status.st_size) < bytes)
-        throw Error(fmt::format("shared memory of {} bytes, expected {}", status.st_size, bytes));
+        throw Error("shared memory of {} bytes, expected {}", status.st_size, bytes);
     map(bytes);
 }
 
@@ -39,7 +37,7 @@ void SharedMemory::map(std::size_t bytes) {
     void* address =
         ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_.number(), 0);
     if (address == MAP_FAILED)
-        throw Error(fmt::format("{} bytes of shared memory: {}", bytes, std::strerror(errno)));
+        throw Error("{} bytes of shared memory: {}", bytes, std::strerror(errno));
     bytes_ = {static_cast<std::byte*>(address), bytes};
 }
 

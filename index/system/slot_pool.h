@@ -4,7 +4,6 @@
 #include "index/system/page_size_trials.h"
 
 #include <cstddef>
-#include <memory>
 #include <mutex>
 #include <vector>
 

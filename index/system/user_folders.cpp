@@ -2,7 +2,6 @@
 #include "index/system/user_folders.h"
 
 #include <cstdlib>
-#include <string>
 
 namespace isochron::index {
 namespace {

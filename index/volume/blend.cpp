@@ -4,7 +4,6 @@
 #include "index/volume/instant.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>

@@ -1,7 +1,6 @@
 // Counts the days of calendars.
 #include "index/volume/calendar.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 

@@ -8,7 +8,6 @@
 #include "interaction/controls/room_panel.h"
 #include "interaction/controls/story_controls.h"
 #include "interaction/controls/time_controls.h"
-#include "interaction/input/actions.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/navigation/navigator.h"
 #include "interaction/tools/tool_box.h"

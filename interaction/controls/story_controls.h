@@ -6,7 +6,6 @@
 #include "interaction/input/device_reading.h"
 #include "interaction/navigation/key_motion.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -1,8 +1,6 @@
 // Finds a device by its name; names of tracking states.
 #include "interaction/input/tracked_input.h"
 
-#include <algorithm>
-
 namespace isochron::interaction {
 
 Tracking DeviceState::tracking() const {

@@ -3,7 +3,6 @@
 
 #include "interaction/pose.h"
 
-#include <array>
 #include <cstddef>
 #include <vector>
 

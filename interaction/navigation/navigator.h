@@ -4,7 +4,6 @@
 
 #include "interaction/control_context.h"
 #include "interaction/input/device_reading.h"
-#include "interaction/navigation/navigation.h"
 
 #include <vector>
 

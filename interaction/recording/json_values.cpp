@@ -21,7 +21,7 @@ std::string excerpt(const json& value) {
 }
 
 void fail(std::string_view where, std::string_view expected, const json& got) {
-    throw Error(fmt::format("{}: expected {}, got {}", where, expected, excerpt(got)));
+    throw Error("{}: expected {}, got {}", where, expected, excerpt(got));
 }
 
 Members::Members(const json& object, std::string_view where) : object_(object), where_(where) {
@@ -40,7 +40,7 @@ const json* Members::find(const char* key) {
 const json& Members::at(const char* key) {
     if (const json* found = find(key))
         return *found;
-    throw Error(fmt::format("{}: \"{}\" is missing", where_, key));
+    throw Error("{}: \"{}\" is missing", where_, key);
 }
 
 void Members::done(std::span<const std::string_view> known) const {
@@ -48,7 +48,7 @@ void Members::done(std::span<const std::string_view> known) const {
         return;
     for (const auto& [key, value] : object_.items())
         if (std::ranges::find(known, key) == known.end())
-            throw Error(fmt::format("{}: unknown key {}", where_, excerpt(json(key))));
+            throw Error("{}: unknown key {}", where_, excerpt(json(key)));
 }
 
 double number(const json& value, std::string_view where) {

@@ -3,7 +3,6 @@
 
 #include "interaction/pose.h"
 
-#include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cmath>

@@ -299,14 +299,12 @@ std::string keys_text(std::span<const KeyFrame> keys, const std::string& data) {
 
 std::vector<KeyFrame> keys_from(std::string_view text, const std::string& name, std::string* data) {
     constexpr int kDeepest = 16;
-    const auto fail_with = [&](const std::string& what) {
-        throw Error(fmt::format("{}: {}", name, what));
-    };
+    const auto fail_with = [&](const std::string& what) { throw Error("{}: {}", name, what); };
     json value;
     try {
         value = json::parse(text, [&](int depth, json::parse_event_t, json&) {
             if (depth > kDeepest)
-                throw Error(fmt::format("nested deeper than {} levels", kDeepest));
+                throw Error("nested deeper than {} levels", kDeepest);
             return true;
         });
     } catch (const json::exception&) {
@@ -319,8 +317,7 @@ std::vector<KeyFrame> keys_from(std::string_view text, const std::string& name, 
     try {
         const auto format = value.is_object() ? value.find("format") : value.end();
         if (!value.is_object() || format == value.end() || *format != kKeysFormat)
-            throw Error(
-                fmt::format("not a file of keys: expected \"format\": \"{}\"", kKeysFormat));
+            throw Error("not a file of keys: expected \"format\": \"{}\"", kKeysFormat);
         Members members(value, "keys");
         members.at("format");
         natural(members.at("version"), "version", kKeysVersion);
@@ -330,13 +327,12 @@ std::vector<KeyFrame> keys_from(std::string_view text, const std::string& name, 
             keys.push_back(commands_from({{"keys", json::array({one})}}, "key").keys->front());
             const KeyFrame& key = keys.back();
             if (key.time < rests + kShortestMove)
-                throw Error(fmt::format(
+                throw Error(
                     "time: expected more than {} s, the end of the rest at the key before, got {}",
-                    rests, key.time));
+                    rests, key.time);
             rests = key.time + key.hold;
             if (rests > kLongestFilm)
-                throw Error(fmt::format("hold: expected an end at {} s or before, got {}",
-                                        kLongestFilm, rests));
+                throw Error("hold: expected an end at {} s or before, got {}", kLongestFilm, rests);
         }
         where.clear();
         if (const json* const named = members.find("data")) {

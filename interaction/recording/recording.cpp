@@ -9,7 +9,6 @@
 #include <istream>
 #include <utility>
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -37,13 +36,13 @@ std::string line_of(const json& value) {
 json parse(const std::string& line) {
     const auto bounded = [](int depth, json::parse_event_t, json&) {
         if (depth > kDeepest)
-            throw Error(fmt::format("nested deeper than {} levels", kDeepest));
+            throw Error("nested deeper than {} levels", kDeepest);
         return true;
     };
     try {
         return json::parse(line, bounded);
     } catch (const json::parse_error& error) {
-        throw Error(fmt::format("not JSON at column {}", error.byte));
+        throw Error("not JSON at column {}", error.byte);
     } catch (const json::out_of_range&) {
         throw Error("a number is out of range");
     }
@@ -95,7 +94,7 @@ class Budget {
                 valuators_ += device.valuators.size();
         }
         if (++frames_ > kMostFrames || states_ > kMostStates || valuators_ > kMostValuators)
-            throw Error(fmt::format("too long: {} frames are the most", kMostFrames));
+            throw Error("too long: {} frames are the most", kMostFrames);
     }
 
   private:
@@ -111,7 +110,7 @@ struct RecordingWriter::State {
     Seconds flushed{0};
 
     [[noreturn]] void fail(const std::filesystem::path& where) const {
-        throw Error(fmt::format("{}: cannot write: {}", where.string(), system_message()));
+        throw Error("{}: cannot write: {}", where.string(), system_message());
     }
     void write(const json& value) {
         const std::string line = line_of(value);
@@ -141,7 +140,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& path, const Record
     state_->path = path;
     state_->temporary = path.string() + ".part";
     if (std::filesystem::is_directory(path))
-        throw Error(fmt::format("{}: cannot write: is a directory", path.string()));
+        throw Error("{}: cannot write: is a directory", path.string());
     state_->file = std::fopen(state_->temporary.c_str(), "wb");
     if (!state_->file)
         state_->fail(state_->temporary);
@@ -160,8 +159,8 @@ void RecordingWriter::append(const RecordedFrame& frame) {
     State& s = *state_;
     require_finite(frame);
     if (s.before && frame.input.time < s.before->input.time)
-        throw Error(fmt::format("{}: time goes back from {} to {}", s.path.string(),
-                                s.before->input.time.count(), frame.input.time.count()));
+        throw Error("{}: time goes back from {} to {}", s.path.string(),
+                    s.before->input.time.count(), frame.input.time.count());
     s.write(to_json(frame, s.before ? &*s.before : nullptr));
     if (!s.before || frame.input.time - s.flushed >= kFlushInterval) {
         s.flush();
@@ -188,7 +187,7 @@ void RecordingWriter::copy_to(const std::filesystem::path& path) {
         error.assign(errno, std::system_category());
     std::error_code ignored;
     std::filesystem::remove(part, ignored);
-    throw Error(fmt::format("{}: cannot write: {}", path.string(), error.message()));
+    throw Error("{}: cannot write: {}", path.string(), error.message());
 }
 
 void write_recording(const std::filesystem::path& path, const Recording& recording) {
@@ -206,7 +205,7 @@ void RecordingWriter::finish() {
 Recording read_recording(std::istream& file, const std::string& name) {
     LineReader reader(file, name);
     if (!reader.next())
-        throw Error(fmt::format("{}: not a recording: empty", name));
+        throw Error("{}: not a recording: empty", name);
     Recording recording;
     try {
         recording.header = header_from_json(parse(reader.line()));

@@ -13,8 +13,6 @@
 #include <limits>
 #include <string_view>
 
-#include <fmt/format.h>
-
 namespace isochron::interaction {
 namespace {
 
@@ -101,7 +99,7 @@ DeviceState device_from(const json& value) {
     if (const json* found = members.find("lost"))
         device.pose_lost = boolean(*found, "lost");
     if (device.pose_lost && device.pose_valid)
-        throw Error(fmt::format("lost: the pose of {} is valid", excerpt(json(device.name))));
+        throw Error("lost: the pose of {} is valid", excerpt(json(device.name)));
     if (const json* found = members.find("velocity"))
         device.velocity = velocity_from(*found);
     if (const json* found = members.find("measured"))
@@ -134,8 +132,7 @@ InputState latched_from(const json& value, Seconds polled) {
     InputState latched;
     latched.time = Seconds(number(members.at("t"), "t"));
     if (latched.time < polled)
-        throw Error(fmt::format("latched: time goes back from {} to {}", polled.count(),
-                                latched.time.count()));
+        throw Error("latched: time goes back from {} to {}", polled.count(), latched.time.count());
     add_devices(members.at("devices"), latched);
     members.done({"t", "devices"});
     return latched;
@@ -148,8 +145,7 @@ bool same_names(const std::vector<DeviceState>& a, const std::vector<DeviceState
 void change(std::vector<DeviceState>& devices, DeviceState changed) {
     const auto found = std::ranges::find(devices, changed.name, &DeviceState::name);
     if (found == devices.end())
-        throw Error(
-            fmt::format("changed: there was no device {} before", excerpt(json(changed.name))));
+        throw Error("changed: there was no device {} before", excerpt(json(changed.name)));
     *found = std::move(changed);
 }
 
@@ -175,14 +171,14 @@ json to_json(const RecordingHeader& header) {
 RecordingHeader header_from_json(const json& value) {
     const auto format = value.is_object() ? value.find("format") : value.end();
     if (!value.is_object() || format == value.end() || *format != kFormat)
-        throw Error(fmt::format("not a recording: expected \"format\":\"{}\"", kFormat));
+        throw Error("not a recording: expected \"format\":\"{}\"", kFormat);
     Members members(value, "header");
     members.at("format");
     RecordingHeader header;
     header.version = static_cast<int>(natural(members.at("version"), "version", 1'000'000));
     if (header.version < 1 || header.version > kRecordingVersion)
-        throw Error(fmt::format("version: this program reads 1 to {}, the recording has {}",
-                                kRecordingVersion, header.version));
+        throw Error("version: this program reads 1 to {}, the recording has {}", kRecordingVersion,
+                    header.version);
     header.program = text(members.at("program"), "program");
     header.configuration = text(members.at("configuration"), "configuration");
     header.data = text(members.at("data"), "data");
@@ -230,8 +226,8 @@ RecordedFrame frame_from_json(const json& value, const RecordedFrame* before) {
     RecordedFrame frame;
     frame.input.time = Seconds(number(members.at("t"), "t"));
     if (before && frame.input.time < before->input.time)
-        throw Error(fmt::format("time goes back from {} to {}", before->input.time.count(),
-                                frame.input.time.count()));
+        throw Error("time goes back from {} to {}", before->input.time.count(),
+                    frame.input.time.count());
     std::vector<DeviceState>& devices = frame.input.devices;
     if (const json* all = members.find("devices")) {
         add_devices(*all, frame.input);
@@ -284,7 +280,7 @@ void take_old_bits(InputState& input) {
 void require_finite(const RecordedFrame& frame) {
     const auto require = [](bool finite, std::string_view what) {
         if (!finite)
-            throw Error(fmt::format("{}: expected finite numbers", what));
+            throw Error("{}: expected finite numbers", what);
     };
     for (const InputState* input : {&frame.input, &frame.latched}) {
         require(std::isfinite(input->time.count()), "t");

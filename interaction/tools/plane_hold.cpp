@@ -7,7 +7,6 @@
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/geometric.hpp>
 #include <glm/gtx/quaternion.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,6 @@
 #include "interaction/navigation/navigation.h"
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 #pragma once
 
 #include "interaction/control_context.h"
-#include "interaction/pointed.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

@@ -28,7 +28,7 @@ namespace isochron::interaction {
 namespace {
 
 [[noreturn]] void fail(const Endpoint& endpoint, const std::string& what) {
-    throw Error(fmt::format("udp {}: {}", to_string(endpoint), what));
+    throw Error("udp {}: {}", to_string(endpoint), what);
 }
 
 using Addresses = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;

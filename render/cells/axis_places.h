@@ -4,7 +4,6 @@
 #include "index/volume/grid.h"
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 namespace isochron::render {

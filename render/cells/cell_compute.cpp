@@ -9,7 +9,6 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
-#include <array>
 #include <string>
 
 namespace isochron::render {

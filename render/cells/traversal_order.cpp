@@ -9,7 +9,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <utility>
 
 namespace isochron::render {

@@ -1,22 +1,16 @@
 // The uniforms and GL state of a draw of cells.
 #include "render/drawing/cell_pass.h"
 
-#include "render/cells/frame_block.h"
 #include "render/cells/point_sprites.h"
 #include "render/drawing/mesh_look.h"
 #include "render/gl/driver.h"
 #include "render/gl/driver_trials.h"
 #include "render/gl/gl_memory.h"
 #include "render/gl/limits.h"
-#include "render/gl/shader.h"
 #include "render/gl/soft_edges.h"
 #include "render/gl/viewport.h"
 
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>

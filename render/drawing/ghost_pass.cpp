@@ -11,12 +11,10 @@
 #include "render/passes/color_map.h"
 
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <string>
-#include <vector>
 
 namespace isochron::render {
 namespace {

@@ -1,8 +1,6 @@
 // Programs and GL state for drawing cells by ray casting.
 #include "render/drawing/surface_pass.h"
 
-#include <string>
-
 namespace isochron::render {
 
 SurfacePass::SurfacePass(const Gl& gl, bool two_views_at_once, const std::string& grid_prelude)

@@ -27,7 +27,7 @@ void DeviceArray::reserve(std::size_t elements, Contents contents) {
     if (elements <= capacity_)
         return;
     if (elements > limit_)
-        throw Error(fmt::format("{} {}: this GL holds at most {}", elements, what_, limit_));
+        throw Error("{} {}: this GL holds at most {}", elements, what_, limit_);
     // Grow by at least half, so that slowly growing sets rarely need a new buffer.
     const std::size_t capacity = std::min(std::max(elements, capacity_ + capacity_ / 2), limit_);
     Buffer larger(*gl_);

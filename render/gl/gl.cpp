@@ -1,8 +1,6 @@
 // Loads the GL entry points.
 #include "render/gl/gl.h"
 
-#include <fmt/format.h>
-
 namespace isochron::render {
 
 namespace {
@@ -11,9 +9,7 @@ template <class Function>
 void load_entry(const GlLoader& load, const char* name, Function& entry) {
     entry = reinterpret_cast<Function>(load(name));
     if (!entry)
-        throw Error(fmt::format("{}: the GL context lacks this entry point, OpenGL 4.5 core is "
-                                "needed",
-                                name));
+        throw Error("{}: the GL context lacks this entry point, OpenGL 4.5 core is needed", name);
 }
 
 } // namespace

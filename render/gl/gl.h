@@ -7,8 +7,11 @@
 
 #include "render/gl/drawn_by.h"
 
+#include <fmt/core.h>
+
 #include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include <GL/glcorearb.h>
 
@@ -19,6 +22,10 @@ namespace isochron::render {
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
+    /// The message as a format with its values.
+    template <class... Values>
+    explicit Error(fmt::format_string<Values...> text, Values&&... values)
+        : std::runtime_error(fmt::format(text, std::forward<Values>(values)...)) {}
 };
 
 /// Returns the address of a GL entry point by its full name (`glClear`), or null.
@@ -34,17 +41,10 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLBLENDFUNCPROC, BlendFunc)                                                                     \
     ENTRY(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                                                     \
     ENTRY(PFNGLBLENDEQUATIONPROC, BlendEquation)                                                             \
-    ENTRY(PFNGLBLENDEQUATIONSEPARATEPROC, BlendEquationSeparate)                                             \
     ENTRY(PFNGLDEPTHFUNCPROC, DepthFunc)                                                                     \
     ENTRY(PFNGLDEPTHMASKPROC, DepthMask)                                                                     \
     ENTRY(PFNGLDEPTHRANGEPROC, DepthRange)                                                                   \
-    ENTRY(PFNGLCULLFACEPROC, CullFace)                                                                       \
-    ENTRY(PFNGLFRONTFACEPROC, FrontFace)                                                                     \
     ENTRY(PFNGLCOLORMASKPROC, ColorMask)                                                                     \
-    ENTRY(PFNGLSTENCILFUNCPROC, StencilFunc)                                                                 \
-    ENTRY(PFNGLSTENCILOPPROC, StencilOp)                                                                     \
-    ENTRY(PFNGLSTENCILMASKPROC, StencilMask)                                                                 \
-    ENTRY(PFNGLPOLYGONMODEPROC, PolygonMode)                                                                 \
     ENTRY(PFNGLSCISSORPROC, Scissor)                                                                         \
     ENTRY(PFNGLVIEWPORTPROC, Viewport)                                                                       \
     ENTRY(PFNGLVIEWPORTINDEXEDFPROC, ViewportIndexedf)                                                       \
@@ -57,7 +57,6 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLGETINTEGER64VPROC, GetInteger64v)                                                             \
     ENTRY(PFNGLGETINTEGERI_VPROC, GetIntegeri_v)                                                             \
     ENTRY(PFNGLGETFLOATVPROC, GetFloatv)                                                                     \
-    ENTRY(PFNGLGETBOOLEANVPROC, GetBooleanv)                                                                 \
     ENTRY(PFNGLGETSTRINGPROC, GetString)                                                                     \
     ENTRY(PFNGLGETSTRINGIPROC, GetStringi)                                                                   \
     ENTRY(PFNGLGETERRORPROC, GetError)                                                                       \
@@ -75,25 +74,17 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLNAMEDBUFFERSUBDATAPROC, NamedBufferSubData)                                                   \
     ENTRY(PFNGLCOPYNAMEDBUFFERSUBDATAPROC, CopyNamedBufferSubData)                                           \
     ENTRY(PFNGLMAPNAMEDBUFFERRANGEPROC, MapNamedBufferRange)                                                 \
-    ENTRY(PFNGLUNMAPNAMEDBUFFERPROC, UnmapNamedBuffer)                                                       \
-    ENTRY(PFNGLFLUSHMAPPEDNAMEDBUFFERRANGEPROC, FlushMappedNamedBufferRange)                                 \
     ENTRY(PFNGLGETNAMEDBUFFERSUBDATAPROC, GetNamedBufferSubData)                                             \
-    ENTRY(PFNGLINVALIDATEBUFFERDATAPROC, InvalidateBufferData)                                               \
     /* Vertex arrays */                                                                                      \
     ENTRY(PFNGLCREATEVERTEXARRAYSPROC, CreateVertexArrays)                                                   \
     ENTRY(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                                                   \
     ENTRY(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                         \
     ENTRY(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib)                                         \
-    ENTRY(PFNGLDISABLEVERTEXARRAYATTRIBPROC, DisableVertexArrayAttrib)                                       \
     ENTRY(PFNGLVERTEXARRAYATTRIBFORMATPROC, VertexArrayAttribFormat)                                         \
     ENTRY(PFNGLVERTEXARRAYATTRIBIFORMATPROC, VertexArrayAttribIFormat)                                       \
     ENTRY(PFNGLVERTEXARRAYATTRIBBINDINGPROC, VertexArrayAttribBinding)                                       \
     ENTRY(PFNGLVERTEXARRAYVERTEXBUFFERPROC, VertexArrayVertexBuffer)                                         \
     ENTRY(PFNGLVERTEXARRAYELEMENTBUFFERPROC, VertexArrayElementBuffer)                                       \
-    ENTRY(PFNGLVERTEXARRAYBINDINGDIVISORPROC, VertexArrayBindingDivisor)                                     \
-    ENTRY(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                         \
-    ENTRY(PFNGLDISABLEVERTEXATTRIBARRAYPROC, DisableVertexAttribArray)                                       \
-    ENTRY(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                                                 \
     /* Drawing */                                                                                            \
     ENTRY(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                   \
     ENTRY(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)                                                 \
@@ -101,13 +92,9 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLDRAWELEMENTSBASEVERTEXPROC, DrawElementsBaseVertex)                                           \
     ENTRY(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)                                             \
     ENTRY(PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXPROC, DrawElementsInstancedBaseVertex)                         \
-    ENTRY(PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCEPROC, DrawElementsInstancedBaseVertexBaseInstance) \
-    ENTRY(PFNGLDRAWRANGEELEMENTSBASEVERTEXPROC, DrawRangeElementsBaseVertex)                                 \
-    ENTRY(PFNGLMULTIDRAWELEMENTSBASEVERTEXPROC, MultiDrawElementsBaseVertex)                                 \
     /* Textures */                                                                                           \
     ENTRY(PFNGLCREATETEXTURESPROC, CreateTextures)                                                           \
     ENTRY(PFNGLDELETETEXTURESPROC, DeleteTextures)                                                           \
-    ENTRY(PFNGLBINDTEXTUREPROC, BindTexture)                                                                 \
     ENTRY(PFNGLBINDTEXTUREUNITPROC, BindTextureUnit)                                                         \
     ENTRY(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                                             \
     ENTRY(PFNGLTEXTURESTORAGE1DPROC, TextureStorage1D)                                                       \
@@ -117,34 +104,22 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLTEXTURESUBIMAGE2DPROC, TextureSubImage2D)                                                     \
     ENTRY(PFNGLTEXTURESUBIMAGE3DPROC, TextureSubImage3D)                                                     \
     ENTRY(PFNGLTEXTUREBUFFERPROC, TextureBuffer)                                                             \
-    ENTRY(PFNGLTEXTUREBUFFERRANGEPROC, TextureBufferRange)                                                   \
     ENTRY(PFNGLTEXTUREPARAMETERIPROC, TextureParameteri)                                                     \
-    ENTRY(PFNGLTEXTUREPARAMETERFPROC, TextureParameterf)                                                     \
     ENTRY(PFNGLGETTEXTURESUBIMAGEPROC, GetTextureSubImage)                                                   \
     ENTRY(PFNGLGENERATETEXTUREMIPMAPPROC, GenerateTextureMipmap)                                             \
-    ENTRY(PFNGLCREATESAMPLERSPROC, CreateSamplers)                                                           \
-    ENTRY(PFNGLDELETESAMPLERSPROC, DeleteSamplers)                                                           \
-    ENTRY(PFNGLBINDSAMPLERPROC, BindSampler)                                                                 \
-    ENTRY(PFNGLSAMPLERPARAMETERIPROC, SamplerParameteri)                                                     \
     /* Framebuffers */                                                                                       \
     ENTRY(PFNGLCREATEFRAMEBUFFERSPROC, CreateFramebuffers)                                                   \
     ENTRY(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                                   \
     ENTRY(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                         \
     ENTRY(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, NamedFramebufferTexture)                                         \
     ENTRY(PFNGLNAMEDFRAMEBUFFERRENDERBUFFERPROC, NamedFramebufferRenderbuffer)                               \
-    ENTRY(PFNGLNAMEDFRAMEBUFFERDRAWBUFFERPROC, NamedFramebufferDrawBuffer)                                   \
-    ENTRY(PFNGLNAMEDFRAMEBUFFERDRAWBUFFERSPROC, NamedFramebufferDrawBuffers)                                 \
-    ENTRY(PFNGLNAMEDFRAMEBUFFERREADBUFFERPROC, NamedFramebufferReadBuffer)                                   \
     ENTRY(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, CheckNamedFramebufferStatus)                                 \
     ENTRY(PFNGLBLITNAMEDFRAMEBUFFERPROC, BlitNamedFramebuffer)                                               \
     ENTRY(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv)                                         \
-    ENTRY(PFNGLCLEARNAMEDFRAMEBUFFERIVPROC, ClearNamedFramebufferiv)                                         \
     ENTRY(PFNGLCREATERENDERBUFFERSPROC, CreateRenderbuffers)                                                 \
     ENTRY(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                                                 \
-    ENTRY(PFNGLNAMEDRENDERBUFFERSTORAGEPROC, NamedRenderbufferStorage)                                       \
     ENTRY(PFNGLNAMEDRENDERBUFFERSTORAGEMULTISAMPLEPROC, NamedRenderbufferStorageMultisample)                 \
     ENTRY(PFNGLDRAWBUFFERPROC, DrawBuffer)                                                                   \
-    ENTRY(PFNGLREADBUFFERPROC, ReadBuffer)                                                                   \
     ENTRY(PFNGLREADPIXELSPROC, ReadPixels)                                                                   \
     /* Compute */                                                                                            \
     ENTRY(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)                                                         \
@@ -165,24 +140,15 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                     \
     ENTRY(PFNGLUSEPROGRAMPROC, UseProgram)                                                                   \
     ENTRY(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                                                   \
-    ENTRY(PFNGLGETATTRIBLOCATIONPROC, GetAttribLocation)                                                     \
-    ENTRY(PFNGLGETUNIFORMBLOCKINDEXPROC, GetUniformBlockIndex)                                               \
-    ENTRY(PFNGLUNIFORMBLOCKBINDINGPROC, UniformBlockBinding)                                                 \
-    ENTRY(PFNGLUNIFORM1IPROC, Uniform1i)                                                                     \
-    ENTRY(PFNGLUNIFORM1FPROC, Uniform1f)                                                                     \
     ENTRY(PFNGLPROGRAMUNIFORM1IPROC, ProgramUniform1i)                                                       \
-    ENTRY(PFNGLPROGRAMUNIFORM1UIPROC, ProgramUniform1ui)                                                     \
     ENTRY(PFNGLPROGRAMUNIFORM1FPROC, ProgramUniform1f)                                                       \
     ENTRY(PFNGLPROGRAMUNIFORM2FPROC, ProgramUniform2f)                                                       \
     ENTRY(PFNGLPROGRAMUNIFORM2IPROC, ProgramUniform2i)                                                       \
     ENTRY(PFNGLPROGRAMUNIFORM3FPROC, ProgramUniform3f)                                                       \
     ENTRY(PFNGLPROGRAMUNIFORM4FPROC, ProgramUniform4f)                                                       \
     ENTRY(PFNGLPROGRAMUNIFORM1FVPROC, ProgramUniform1fv)                                                     \
-    ENTRY(PFNGLPROGRAMUNIFORM2FVPROC, ProgramUniform2fv)                                                     \
     ENTRY(PFNGLPROGRAMUNIFORM3FVPROC, ProgramUniform3fv)                                                     \
     ENTRY(PFNGLPROGRAMUNIFORM4FVPROC, ProgramUniform4fv)                                                     \
-    ENTRY(PFNGLPROGRAMUNIFORMMATRIX2FVPROC, ProgramUniformMatrix2fv)                                         \
-    ENTRY(PFNGLPROGRAMUNIFORMMATRIX3FVPROC, ProgramUniformMatrix3fv)                                         \
     ENTRY(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv)                                         \
     /* Queries, fences and debug output */                                                                   \
     ENTRY(PFNGLCREATEQUERIESPROC, CreateQueries)                                                             \
@@ -192,17 +158,12 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLGETQUERYIVPROC, GetQueryiv)                                                                   \
     ENTRY(PFNGLQUERYCOUNTERPROC, QueryCounter)                                                               \
     ENTRY(PFNGLGETQUERYOBJECTIVPROC, GetQueryObjectiv)                                                       \
-    ENTRY(PFNGLGETQUERYOBJECTUIVPROC, GetQueryObjectuiv)                                                     \
     ENTRY(PFNGLGETQUERYOBJECTUI64VPROC, GetQueryObjectui64v)                                                 \
     ENTRY(PFNGLFENCESYNCPROC, FenceSync)                                                                     \
     ENTRY(PFNGLDELETESYNCPROC, DeleteSync)                                                                   \
     ENTRY(PFNGLCLIENTWAITSYNCPROC, ClientWaitSync)                                                           \
     ENTRY(PFNGLWAITSYNCPROC, WaitSync)                                                                       \
-    ENTRY(PFNGLDEBUGMESSAGECALLBACKPROC, DebugMessageCallback)                                               \
-    ENTRY(PFNGLDEBUGMESSAGECONTROLPROC, DebugMessageControl)                                                 \
-    ENTRY(PFNGLPUSHDEBUGGROUPPROC, PushDebugGroup)                                                           \
-    ENTRY(PFNGLPOPDEBUGGROUPPROC, PopDebugGroup)                                                             \
-    ENTRY(PFNGLOBJECTLABELPROC, ObjectLabel)
+    ENTRY(PFNGLDEBUGMESSAGECALLBACKPROC, DebugMessageCallback)
 // clang-format on
 
 /// A plain value: copies call the same context; tests replace entries by fakes that count.

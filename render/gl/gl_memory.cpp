@@ -1,8 +1,6 @@
 // Asks the GL whether its memory sufficed.
 #include "render/gl/gl_memory.h"
 
-#include <fmt/format.h>
-
 namespace isochron::render {
 
 void expect_memory(const Gl& gl, std::string_view what) {
@@ -15,7 +13,7 @@ void expect_memory(const Gl& gl, std::string_view what) {
         short_of_memory = short_of_memory || error == GL_OUT_OF_MEMORY;
     }
     if (short_of_memory)
-        throw OutOfMemory(fmt::format("{}: this GL has no memory left for that", what));
+        throw OutOfMemory("{}: this GL has no memory left for that", what);
 }
 
 } // namespace isochron::render

@@ -8,53 +8,39 @@
 
 namespace isochron::render {
 
-struct BufferKind {
-    static constexpr const char* kName = "buffer";
-    static GLuint create(const Gl& gl);
-    static void destroy(const Gl& gl, GLuint name);
+/// How objects of a kind are made and deleted: one at a time, or as many as are asked for.
+template <class Create, class Delete>
+struct GlKind {
+    const char* name;
+    Create Gl::* create;
+    Delete Gl::* destroy;
 };
-struct VertexArrayKind {
-    static constexpr const char* kName = "vertex array";
-    static GLuint create(const Gl& gl);
-    static void destroy(const Gl& gl, GLuint name);
-};
-struct TextureKind {
-    static constexpr const char* kName = "texture";
-    static GLuint create(const Gl& gl, GLenum target);
-    static void destroy(const Gl& gl, GLuint name);
-};
-struct FramebufferKind {
-    static constexpr const char* kName = "framebuffer";
-    static GLuint create(const Gl& gl);
-    static void destroy(const Gl& gl, GLuint name);
-};
-struct RenderbufferKind {
-    static constexpr const char* kName = "renderbuffer";
-    static GLuint create(const Gl& gl);
-    static void destroy(const Gl& gl, GLuint name);
-};
-struct ProgramKind {
-    static constexpr const char* kName = "shader program";
-    static GLuint create(const Gl& gl);
-    static void destroy(const Gl& gl, GLuint name);
-};
-struct QueryKind {
-    static constexpr const char* kName = "query";
-    static GLuint create(const Gl& gl, GLenum target);
-    static void destroy(const Gl& gl, GLuint name);
-};
+inline constexpr GlKind kBufferKind{"buffer", &Gl::CreateBuffers, &Gl::DeleteBuffers};
+inline constexpr GlKind kVertexArrayKind{"vertex array", &Gl::CreateVertexArrays,
+                                         &Gl::DeleteVertexArrays};
+inline constexpr GlKind kTextureKind{"texture", &Gl::CreateTextures, &Gl::DeleteTextures};
+inline constexpr GlKind kFramebufferKind{"framebuffer", &Gl::CreateFramebuffers,
+                                         &Gl::DeleteFramebuffers};
+inline constexpr GlKind kRenderbufferKind{"renderbuffer", &Gl::CreateRenderbuffers,
+                                          &Gl::DeleteRenderbuffers};
+inline constexpr GlKind kShaderKind{"shader", &Gl::CreateShader, &Gl::DeleteShader};
+inline constexpr GlKind kProgramKind{"shader program", &Gl::CreateProgram, &Gl::DeleteProgram};
+inline constexpr GlKind kQueryKind{"query", &Gl::CreateQueries, &Gl::DeleteQueries};
 
 /// Owns one GL object of the table's context, which must be current when the owner is constructed
 /// and destroyed. A moved-from owner holds name 0.
 /// @throws OutOfMemory when the GL makes no object
-template <class Kind>
+template <const auto& kKind>
 class GlObject {
   public:
     template <class... Arguments>
-    explicit GlObject(const Gl& gl, Arguments... arguments)
-        : gl_(&gl), name_(Kind::create(gl, arguments...)) {
+    explicit GlObject(const Gl& gl, Arguments... arguments) : gl_(&gl) {
+        if constexpr (requires { (gl.*kKind.create)(arguments..., 1, &name_); })
+            (gl.*kKind.create)(arguments..., 1, &name_);
+        else
+            name_ = (gl.*kKind.create)(arguments...);
         if (name_ == 0)
-            throw OutOfMemory(std::string(Kind::kName) + ": this GL cannot make one more");
+            throw OutOfMemory(std::string(kKind.name) + ": this GL cannot make one more");
     }
     GlObject(GlObject&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
     GlObject& operator=(GlObject&& other) noexcept {
@@ -63,8 +49,12 @@ class GlObject {
         return *this;
     }
     ~GlObject() {
-        if (name_ != 0)
-            Kind::destroy(*gl_, name_);
+        if (name_ == 0)
+            return;
+        if constexpr (requires { (gl_->*kKind.destroy)(1, &name_); })
+            (gl_->*kKind.destroy)(1, &name_);
+        else
+            (gl_->*kKind.destroy)(name_);
     }
 
     GLuint name() const { return name_; }
@@ -72,15 +62,16 @@ class GlObject {
 
   private:
     const Gl* gl_;
-    GLuint name_;
+    GLuint name_ = 0;
 };
 
-using Buffer = GlObject<BufferKind>;
-using VertexArray = GlObject<VertexArrayKind>;
-using Texture = GlObject<TextureKind>; ///< `Texture(gl, GL_TEXTURE_2D)`
-using Framebuffer = GlObject<FramebufferKind>;
-using Renderbuffer = GlObject<RenderbufferKind>;
-using Program = GlObject<ProgramKind>;
-using Query = GlObject<QueryKind>; ///< `Query(gl, GL_TIMESTAMP)`
+using Buffer = GlObject<kBufferKind>;
+using VertexArray = GlObject<kVertexArrayKind>;
+using Texture = GlObject<kTextureKind>; ///< `Texture(gl, GL_TEXTURE_2D)`
+using Framebuffer = GlObject<kFramebufferKind>;
+using Renderbuffer = GlObject<kRenderbufferKind>;
+using Shader = GlObject<kShaderKind>; ///< `Shader(gl, GL_VERTEX_SHADER)`
+using Program = GlObject<kProgramKind>;
+using Query = GlObject<kQueryKind>; ///< `Query(gl, GL_TIMESTAMP)`
 
 } // namespace isochron::render

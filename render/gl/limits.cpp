@@ -1,13 +1,10 @@
 // Asks for the driver's limits, and compares them with the program's needs.
 #include "render/gl/limits.h"
 
-#include <fmt/format.h>
-
 #include <glm/common.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <numeric>
 
 namespace isochron::render {
@@ -63,13 +60,13 @@ constexpr std::array kNeeds{
 #undef NEED
 
 [[noreturn]] void lacks(const char* name, GLint needed, GLint got) {
-    throw Error(fmt::format("{} is {} with this GL, at least {} is needed", name, got, needed));
+    throw Error("{} is {} with this GL, at least {} is needed", name, got, needed);
 }
 
 void expect_size(const char* what, glm::ivec2 size, glm::ivec2 most) {
     if (size.x < 1 || size.y < 1 || size.x > most.x || size.y > most.y)
-        throw Error(fmt::format("{}: {}x{} pixels, this GL has 1x1 to {}x{}", what, size.x, size.y,
-                                most.x, most.y));
+        throw Error("{}: {}x{} pixels, this GL has 1x1 to {}x{}", what, size.x, size.y, most.x,
+                    most.y);
 }
 
 } // namespace
@@ -116,9 +113,9 @@ std::size_t work_at_once(const Limits& limits, std::size_t bytes) {
     const std::size_t most =
         std::min(limits.work_groups * kWorkGroup, limits.storage_block_bytes / bytes);
     if (most < unit)
-        throw Error(fmt::format("{} things at once on the GPU, at least {} are needed: this GL has "
-                                "{} work groups and {} bytes of a storage block",
-                                most, unit, limits.work_groups, limits.storage_block_bytes));
+        throw Error("{} things at once on the GPU, at least {} are needed: this GL has {} work "
+                    "groups and {} bytes of a storage block",
+                    most, unit, limits.work_groups, limits.storage_block_bytes);
     return most / unit * unit;
 }
 

@@ -16,8 +16,8 @@ RenderTarget::RenderTarget(const Gl& gl, glm::ivec2 size, int samples)
     : gl_(&gl), size_(size), samples_(samples), color_(gl, GL_TEXTURE_2D),
       depth_(gl, GL_TEXTURE_2D), framebuffer_(gl) {
     if (samples < 1 || samples > max_samples(gl))
-        throw Error(fmt::format("render target: {} samples for each pixel, this GL has 1 to {}",
-                                samples, max_samples(gl)));
+        throw Error("render target: {} samples for each pixel, this GL has 1 to {}", samples,
+                    max_samples(gl));
     allocate();
 }
 
@@ -67,9 +67,9 @@ void RenderTarget::expect_complete(GLuint framebuffer) const {
         *gl_, fmt::format("render target: {}x{} pixels of {} samples", size_.x, size_.y, samples_));
     const GLenum status = gl_->CheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw Error(fmt::format("render target: {}x{} pixels of {} samples, framebuffer status "
-                                "{:#x}, expected complete",
-                                size_.x, size_.y, samples_, status));
+        throw Error("render target: {}x{} pixels of {} samples, framebuffer status {:#x}, expected "
+                    "complete",
+                    size_.x, size_.y, samples_, status);
 }
 
 void RenderTarget::bind() const {

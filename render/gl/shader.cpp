@@ -8,21 +8,12 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
-#include <utility>
 
 namespace isochron::render {
 
 namespace {
 
 thread_local std::size_t links = 0; ///< programs that this thread has linked
-
-struct ShaderKind {
-    static constexpr const char* kName = "shader";
-    static GLuint create(const Gl& gl, GLenum stage) { return gl.CreateShader(stage); }
-    static void destroy(const Gl& gl, GLuint name) { gl.DeleteShader(name); }
-};
-using Shader = GlObject<ShaderKind>;
 
 struct Stage {
     std::string_view extension, definition;
@@ -36,7 +27,7 @@ const Stage& stage_of(std::string_view name) {
     for (const Stage& stage : kStages)
         if (name.ends_with(stage.extension))
             return stage;
-    throw Error(fmt::format("{}: unknown kind of shader, expected .vert, .frag or .comp", name));
+    throw Error("{}: unknown kind of shader, expected .vert, .frag or .comp", name);
 }
 
 /// The number of a file for #line, as GLSL names files by numbers.
@@ -106,8 +97,8 @@ Shader compile(const Gl& gl, const ShaderSource& source, std::string_view prelud
         gl.GetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &log_length);
         std::string log(std::max(log_length, 1), '\0');
         gl.GetShaderInfoLog(shader.name(), log_length, nullptr, log.data());
-        throw Error(fmt::format("{}: shader does not compile, where {}: {}", source.name,
-                                numbers_of(source, included), log.c_str()));
+        throw Error("{}: shader does not compile, where {}: {}", source.name,
+                    numbers_of(source, included), log.c_str());
     }
     return shader;
 }
@@ -118,7 +109,7 @@ const ShaderSource& shader_file(std::string_view name) {
     for (const ShaderSource& file : shader_files())
         if (file.name == name)
             return file;
-    throw Error(fmt::format("{}: no such shader file", name));
+    throw Error("{}: no such shader file", name);
 }
 
 bool has_extension(const Gl& gl, std::string_view name) {
@@ -149,8 +140,7 @@ Program link_program(const Gl& gl, const std::vector<ShaderSource>& sources,
         names.reserve(sources.size());
         for (const ShaderSource& source : sources)
             names.push_back(source.name);
-        throw Error(
-            fmt::format("{}: shaders do not link: {}", fmt::join(names, ", "), log.c_str()));
+        throw Error("{}: shaders do not link: {}", fmt::join(names, ", "), log.c_str());
     }
     ++links;
     return program;

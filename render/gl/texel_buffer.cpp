@@ -3,8 +3,6 @@
 
 #include "render/gl/limits.h"
 
-#include <fmt/format.h>
-
 namespace isochron::render {
 
 TexelBuffer::TexelBuffer(const Gl& gl, const char* what, std::size_t texels)
@@ -14,8 +12,7 @@ TexelBuffer::TexelBuffer(const Gl& gl, const char* what, std::size_t texels)
 void TexelBuffer::set(std::span<const std::byte> bytes) {
     const std::size_t elements = bytes.size() / element_bytes_;
     if (elements > limit_)
-        throw Error(
-            fmt::format("{} {} in one draw: this GL holds at most {}", elements, what_, limit_));
+        throw Error("{} {} in one draw: this GL holds at most {}", elements, what_, limit_);
     texels_.set(GL_RGBA32F, 4 * sizeof(float), bytes);
 }
 

@@ -34,7 +34,7 @@ EnlargePass::Target::Target(const Gl& gl, glm::ivec2 pixels, bool linear_light)
     expect_memory(gl, what);
     const GLenum status = gl.CheckNamedFramebufferStatus(framebuffer.name(), GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw Error(fmt::format("{}, framebuffer status {:#x}, expected complete", what, status));
+        throw Error("{}, framebuffer status {:#x}, expected complete", what, status);
 }
 
 EnlargePass::EnlargePass(const Gl& gl)

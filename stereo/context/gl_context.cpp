@@ -35,7 +35,7 @@ template <typename Function>
 Function entry_point(const render::GlLoader& loader, const char* name) {
     void* address = loader(name);
     if (!address)
-        throw render::Error(fmt::format("the context has no {}", name));
+        throw render::Error("the context has no {}", name);
     return reinterpret_cast<Function>(address);
 }
 
@@ -59,8 +59,8 @@ void require_gl_4_5_core(const render::GlLoader& loader) {
     get_integer(GL_MINOR_VERSION, &minor);
     get_integer(GL_CONTEXT_PROFILE_MASK, &profile);
     if (major * 10 + minor < 45 || !(profile & GL_CONTEXT_CORE_PROFILE_BIT))
-        throw render::Error(fmt::format("OpenGL 4.5 core is needed, got {}.{}{}", major, minor,
-                                        profile & GL_CONTEXT_CORE_PROFILE_BIT ? " core" : ""));
+        throw render::Error("OpenGL 4.5 core is needed, got {}.{}{}", major, minor,
+                            profile & GL_CONTEXT_CORE_PROFILE_BIT ? " core" : "");
 }
 
 } // namespace
@@ -84,8 +84,8 @@ std::unique_ptr<GlContext> make_context(ContextKind kind, const ContextOptions& 
         if (row.kind == kind) {
             try {
                 if (options.size.x <= 0 || options.size.y <= 0)
-                    throw render::Error(
-                        fmt::format("size {}x{} is not positive", options.size.x, options.size.y));
+                    throw render::Error("size {}x{} is not positive", options.size.x,
+                                        options.size.y);
                 auto context = row.make(options);
                 require_gl_4_5_core(context->loader());
                 if (describe_current(context->loader()).find("llvmpipe") != std::string::npos) {
@@ -96,8 +96,8 @@ std::unique_ptr<GlContext> make_context(ContextKind kind, const ContextOptions& 
             } catch (const NoDisplay&) {
                 throw;
             } catch (const render::Error& error) {
-                throw render::Error(fmt::format("context {}: {}; other contexts: {}", row.name,
-                                                error.what(), other_kinds(kind)));
+                throw render::Error("context {}: {}; other contexts: {}", row.name, error.what(),
+                                    other_kinds(kind));
             }
         }
     throw render::Error("context of an unknown kind");

@@ -6,8 +6,6 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <string_view>
@@ -68,9 +66,9 @@ class EglDisplay {
                 "libEGL opens no GPU without a window and has no EGL_MESA_platform_surfaceless");
         if (!opens(
                 get_platform_display_(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)))
-            throw render::Error(fmt::format("the surfaceless display does not open, or not without "
-                                            "a configuration and a surface (EGL error {:#x})",
-                                            error()));
+            throw render::Error("the surfaceless display does not open, or not without a "
+                                "configuration and a surface (EGL error {:#x})",
+                                error());
     }
     ~EglDisplay() { terminate_(display_); }
     EglDisplay(const EglDisplay&) = delete;
@@ -142,8 +140,8 @@ class EglContext final : public OffscreenContext {
                 break;
         }
         if (context_ == EGL_NO_CONTEXT)
-            throw render::Error(fmt::format(
-                "EGL does not provide OpenGL 4.5 core (EGL error {:#x})", egl_->error()));
+            throw render::Error("EGL does not provide OpenGL 4.5 core (EGL error {:#x})",
+                                egl_->error());
         try {
             make_current();
         } catch (...) {
@@ -164,8 +162,7 @@ class EglContext final : public OffscreenContext {
         if (egl_->current_context() == context_)
             release();
         if (!egl_->make_current(egl_->handle(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
-            throw render::Error(
-                fmt::format("eglMakeCurrent failed (EGL error {:#x})", egl_->error()));
+            throw render::Error("eglMakeCurrent failed (EGL error {:#x})", egl_->error());
     }
     void leave() override { release(); }
     render::GlLoader loader() const override {

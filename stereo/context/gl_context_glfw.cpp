@@ -69,10 +69,9 @@ class GlfwLibrary {
             throw render::Error(error.what());
         }
         if (!glfwInit())
-            throw NoDisplay(
-                fmt::format("no display to open a window on, see DISPLAY ({}){}; `isochron replay` "
+            throw NoDisplay("no display to open a window on, see DISPLAY ({}){}; `isochron replay` "
                             "draws pictures of a recording without one",
-                            glfw_complaint(), way_to_wayland()));
+                            glfw_complaint(), way_to_wayland());
         watch_display();
     }
     ~GlfwLibrary() { glfwTerminate(); }
@@ -300,8 +299,8 @@ class GlfwContext final : public GlContext {
         int count = 0;
         GLFWmonitor** monitors = glfwGetMonitors(&count);
         if (index < 0 || index >= count)
-            throw render::Error(fmt::format("monitor {} does not exist, there {} {}", index,
-                                            count == 1 ? "is" : "are", count));
+            throw render::Error("monitor {} does not exist, there {} {}", index,
+                                count == 1 ? "is" : "are", count);
         return monitors[index];
     }
 

@@ -5,8 +5,6 @@
 // Only types and values of this header are used; its functions are loaded at run time.
 #include <GL/osmesa.h>
 
-#include <fmt/format.h>
-
 #include <cstdlib>
 #include <optional>
 #include <string>

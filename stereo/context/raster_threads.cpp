@@ -13,7 +13,6 @@
 #include <string_view>
 #include <system_error>
 #include <thread>
-#include <vector>
 
 namespace isochron::stereo {
 namespace {

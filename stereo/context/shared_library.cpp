@@ -3,8 +3,6 @@
 
 #include "render/gl/gl.h"
 
-#include <fmt/format.h>
-
 #include <dlfcn.h>
 
 namespace isochron::stereo {
@@ -18,7 +16,7 @@ SharedLibrary::SharedLibrary(const std::string& file)
 void* SharedLibrary::symbol(const char* name) const {
     if (void* address = dlsym(handle_, name))
         return address;
-    throw render::Error(fmt::format("{} has no {}", file_, name));
+    throw render::Error("{} has no {}", file_, name);
 }
 
 } // namespace isochron::stereo

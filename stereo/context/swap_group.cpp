@@ -19,10 +19,9 @@ constexpr std::string_view kExtension = "GLX_NV_swap_group";
 constexpr GLuint kGroup = 1, kBarrier = 1;
 
 [[noreturn]] void refuse(const std::string& why) {
-    throw render::Error(
-        fmt::format("cluster.swap_group: {}; without it the windows are swapped one after the "
-                    "other, as soon as all processes have drawn",
-                    why));
+    throw render::Error("cluster.swap_group: {}; without it the windows are swapped one after the "
+                        "other, as soon as all processes have drawn",
+                        why);
 }
 
 template <class Function>

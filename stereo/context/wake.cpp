@@ -3,8 +3,6 @@
 
 #include "render/gl/gl.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -20,7 +18,7 @@ namespace isochron::stereo {
 
 Wake::Wake() : descriptor_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
     if (descriptor_ < 0)
-        throw render::Error(fmt::format("eventfd: {}", std::strerror(errno)));
+        throw render::Error("eventfd: {}", std::strerror(errno));
 }
 
 Wake::~Wake() {

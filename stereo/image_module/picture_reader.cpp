@@ -4,8 +4,6 @@
 #include "index/system/module.h"
 #include "stereo/image_module/image_module.h"
 
-#include <fmt/format.h>
-
 #include <string>
 #include <utility>
 
@@ -42,7 +40,7 @@ index::DecodedPicture read_picture(const std::filesystem::path& path, bool pixel
     else if (error.empty())
         functions.note(path.string(), picture.note, error);
     if (!error.empty())
-        throw index::Error(fmt::format("{}: {}", path.string(), error));
+        throw index::Error("{}: {}", path.string(), error);
     picture.width = static_cast<std::uint32_t>(image.width);
     picture.height = static_cast<std::uint32_t>(image.height);
     picture.rgba = std::move(image.rgba);

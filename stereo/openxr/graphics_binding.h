@@ -3,8 +3,6 @@
 
 #include "stereo/context/native_gl.h"
 
-#include <openxr/openxr.h>
-
 #include <memory>
 
 namespace isochron::stereo {

@@ -100,15 +100,13 @@ void add_artifacts(app::Command& program) {
     app::Command command = program.subcommand(
         "artifacts", "Count the pixels that change where normals are kept over a time span, and "
                      "where false positives of the THI tree are drawn.");
-    command.option("--json", arguments->json, "Write the rows, with commit and processor")
-        .type_name("FILE");
+    command.option("--json FILE", arguments->json, "Write the rows, with commit and processor");
     command
-        .option("--out", arguments->pictures,
+        .option("--out DIR", arguments->pictures,
                 "Folder for pictures: ShellSplatting and fast quads; exact normals, kept "
                 "normals and their difference, four times as bright; the same of false "
                 "positives, all of the first L and the last MaxVariation")
-        .existing_folder()
-        .type_name("DIR");
+        .existing_folder();
     command.option("--data", arguments->data, "Series to make and draw, u8")
         .one_of(data_names())
         .comma_separated()
@@ -131,9 +129,8 @@ void add_artifacts(app::Command& program) {
     command.option("--context", arguments->context, "GL context")
         .one_of({"egl", "osmesa"})
         .shows_default();
-    command.option("--work", arguments->work, "Folder for the series' files")
+    command.option("--work DIR", arguments->work, "Folder for the series' files")
         .existing_folder()
-        .type_name("DIR")
         .shows_default();
     command.on_run([arguments] { run_bench_artifacts(*arguments); });
 }

@@ -165,18 +165,14 @@ void add_between(app::Command& program) {
     command.option("--bytes", arguments->bytes, "Series of bytes whose cells are compared")
         .one_of(data_names())
         .shows_default();
-    command
-        .option("--played", arguments->played,
-                "Index that is played, too, to see whether its picture jumps at steps")
-        .type_name("FILE.isochron");
+    command.option("--played FILE.isochron", arguments->played,
+                   "Index that is played, too, to see whether its picture jumps at steps");
     command.option("--repeats", arguments->repeats, "Moments that are measured")
         .between(1, 1000)
         .shows_default();
-    command.option("--json", arguments->json, "Write the figures, with commit and processor")
-        .type_name("FILE");
-    command.option("--work", arguments->work, "Folder for the series")
+    command.option("--json FILE", arguments->json, "Write the figures, with commit and processor");
+    command.option("--work DIR", arguments->work, "Folder for the series")
         .existing_folder()
-        .type_name("DIR")
         .shows_default();
     command.footer(
         "Times are processor times of all threads, medians, in turn: cells with their planes and "

@@ -170,13 +170,10 @@ void add_building(app::Command& program) {
     command.option("--repeats", arguments->repeats, "Times that each is measured")
         .between(1, 100)
         .shows_default();
-    command.option("--only", arguments->only, "Measure only what has this in its name")
-        .type_name("TEXT");
-    command.option("--json", arguments->json, "Write the rows, with commit and processor")
-        .type_name("FILE");
-    command.option("--work", arguments->work, "Folder for the index")
+    command.option("--only TEXT", arguments->only, "Measure only what has this in its name");
+    command.option("--json FILE", arguments->json, "Write the rows, with commit and processor");
+    command.option("--work DIR", arguments->work, "Folder for the index")
         .existing_folder()
-        .type_name("DIR")
         .shows_default();
     command.footer("One step in memory, with bricks. Times are processor times of all threads, "
                    "medians, in turn; zstd compresses the\nsame bytes in memory at level 1.");

@@ -273,13 +273,10 @@ void add_change(app::Command& program) {
     command.option("--repeats", arguments->repeats, "Steps that are measured of each kind")
         .between(1, 100)
         .shows_default();
-    command.option("--only", arguments->only, "Measure only what has this in its name")
-        .type_name("TEXT");
-    command.option("--json", arguments->json, "Write the rows, with commit and processor")
-        .type_name("FILE");
-    command.option("--work", arguments->work, "Folder for the series")
+    command.option("--only TEXT", arguments->only, "Measure only what has this in its name");
+    command.option("--json FILE", arguments->json, "Write the rows, with commit and processor");
+    command.option("--work DIR", arguments->work, "Folder for the series")
         .existing_folder()
-        .type_name("DIR")
         .shows_default();
     command.footer(
         "Ratios are of two times in turn. A set is timed from the question to the set that "

@@ -111,12 +111,9 @@ void add_index(app::Command& program) {
         "index", "Measure size, errors and speed of every search structure, on one thread, beside "
                  "a scan, a T-BON, VTK's flying edges and memcpy.");
     StructureOptions& structures = arguments->measure.structures;
-    command
-        .option("file", arguments->file,
-                "Measure this index instead of the series that the benchmark makes")
-        .type_name("NAME.isochron");
-    command.option("--json", arguments->json, "Write the rows, with commit and processor")
-        .type_name("FILE");
+    command.option("file NAME.isochron", arguments->file,
+                   "Measure this index instead of the series that the benchmark makes");
+    command.option("--json FILE", arguments->json, "Write the rows, with commit and processor");
     command.option("--data", arguments->data, "Series to make and measure (default: all)")
         .one_of(data_names())
         .comma_separated();
@@ -160,9 +157,8 @@ void add_index(app::Command& program) {
                 "Threads to build with; 0: as many as there are processors")
         .between(0u, 1024u)
         .shows_default();
-    command.option("--work", arguments->work, "Folder for the series' files, a few GB")
+    command.option("--work DIR", arguments->work, "Folder for the series' files, a few GB")
         .existing_folder()
-        .type_name("DIR")
         .shows_default();
     command.flag("--quick", arguments->quick,
                  "Only look that it works: five steps of the sphere, one round");

@@ -89,19 +89,16 @@ void add_motion(app::Command& program) {
     command.option("--seconds", arguments->play.seconds, "Length of a motion")
         .between(0.1, 600.0)
         .shows_default();
-    command.option("--json", arguments->json, "Write the rows, with commit and processor")
-        .type_name("FILE");
+    command.option("--json FILE", arguments->json, "Write the rows, with commit and processor");
     command
-        .option("--out", arguments->sheet,
+        .option("--out DIR", arguments->sheet,
                 "Folder for sheets of pictures: of each motion the least alike, moving above "
                 "settled; motion.jpg has all data at 1280 x 720")
-        .existing_folder()
-        .type_name("DIR");
+        .existing_folder();
     command
-        .option("--indices", arguments->kept,
+        .option("--indices DIR", arguments->kept,
                 "Folder in which the indices of the data are kept for the next time")
         .existing_folder()
-        .type_name("DIR")
         .shows_default();
     command.on_run([arguments] { run_bench_motion(*arguments); });
 }

@@ -208,12 +208,10 @@ void add_render(app::Command& program) {
         "render", "Measure whole frames, extraction and drawing, of every footprint, beside VTK's "
                   "flying edges and renderer and beside bare quads in the same GL.");
     command
-        .option("files", arguments->files,
+        .option("files NAME.isochron", arguments->files,
                 "Draw these indexes instead of the series that the benchmark makes")
-        .existing_file()
-        .type_name("NAME.isochron");
-    command.option("--json", arguments->json, "Write the rows, with commit and processor")
-        .type_name("FILE");
+        .existing_file();
+    command.option("--json FILE", arguments->json, "Write the rows, with commit and processor");
     command.option("--data", arguments->data, "Series to make and draw, u8")
         .one_of(data_names())
         .comma_separated()
@@ -255,9 +253,8 @@ void add_render(app::Command& program) {
         .between(1u, 1000u)
         .shows_default();
     command.flag("--no-vtk", arguments->no_vtk, "Do without VTK");
-    command.option("--work", arguments->work, "Folder for the series' files")
+    command.option("--work DIR", arguments->work, "Folder for the series' files")
         .existing_folder()
-        .type_name("DIR")
         .shows_default();
     command.flag("--agreement-only", arguments->agreement_only,
                  "Instead of speeds: how far quads and splats agree with the exact surface");

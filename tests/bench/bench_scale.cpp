@@ -69,7 +69,7 @@ double seconds_of(const std::function<void()>& work) {
 void forget(const fs::path& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0)
-        throw index::Error(fmt::format("{}: cannot be opened", path.string()));
+        throw index::Error("{}: cannot be opened", path.string());
     ::fsync(file);
     ::posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED);
     ::close(file);
@@ -114,7 +114,7 @@ class Field {
     void read_again() {
         const auto to = std::as_writable_bytes(std::span(bytes_)).first(count());
         if (index::InputFile(path_).read(0, to) != to.size())
-            throw index::Error(fmt::format("{}: too short", path_.string()));
+            throw index::Error("{}: too short", path_.string());
     }
     std::unique_ptr<index::VolumeSeries> series() const {
         index::ReadOptions options;
@@ -336,9 +336,8 @@ void add_scale(app::Command& program) {
     command.flag("--warm", arguments->warm,
                  "Measure ids of a float step in memory instead, by bricks and by the scan, and "
                  "what limits them; with --vtk also how long its mesh takes");
-    command.option("--work", arguments->work, "Folder for the files, on a disk: two steps")
+    command.option("--work DIR", arguments->work, "Folder for the files, on a disk: two steps")
         .existing_folder()
-        .type_name("DIR")
         .shows_default();
     command.footer("Cold: the file has been taken out of the page cache. Bytes are what disks "
                    "gave this process, from opening on.\nThe plain read is in order, "

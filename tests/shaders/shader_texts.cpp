@@ -201,9 +201,9 @@ void write_all(const std::filesystem::path& folder) {
     }
     for (const render::ShaderSource& file : render::shader_files())
         if (!file.name.ends_with(".glsl") && !found.contains(std::string(file.name)))
-            throw render::Error(fmt::format("render/shaders/{}: used by no pass that "
-                                            "tests/shaders/shader_texts.cpp makes",
-                                            file.path));
+            throw render::Error(
+                "render/shaders/{}: used by no pass that tests/shaders/shader_texts.cpp makes",
+                file.path);
 }
 
 } // namespace

@@ -5,13 +5,12 @@
 
 namespace isochron::app {
 
-void Tell::operator()(const CheckedRoom& room, int line, const std::string& text,
-                      const std::string& tracker) const {
+void Tell::add(int line, const std::string& text) const {
     std::string key = check_.key;
     if (key.starts_with('*'))
-        key.replace(0, 1, tracker);
+        key.replace(0, 1, tracker_);
     if (line == 0)
-        line = room.line_of(key);
+        line = room_.line_of(key);
     const auto told = [&](const ConfigProblem& known) {
         return known.line == line && known.key == key && known.text == text;
     };
@@ -22,7 +21,7 @@ void Tell::operator()(const CheckedRoom& room, int line, const std::string& text
 std::vector<ConfigProblem> findings_of(std::span<const Check> checks, const CheckedRoom& room) {
     std::vector<ConfigProblem> found;
     for (const Check& check : checks)
-        check.look(room, Tell(check, found));
+        check.look(room, Tell(check, room, found));
     return found;
 }
 

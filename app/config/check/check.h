@@ -3,8 +3,11 @@
 
 #include "app/config/check/checked_room.h"
 
+#include <fmt/core.h>
+
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -18,17 +21,32 @@ struct Check {
     void (*look)(const CheckedRoom& room, const Tell& tell);
 };
 
-/// Tells what a check has found, under the check's key. What has been told already is left out.
+/// Tells what a check has found in a room, under the check's key. What has been told already is left
+/// out.
 class Tell {
   public:
-    Tell(const Check& check, std::vector<ConfigProblem>& found) : check_(check), found_(found) {}
+    Tell(const Check& check, const CheckedRoom& room, std::vector<ConfigProblem>& found)
+        : check_(check), room_(room), found_(found) {}
+    /// Tells of a tracker. @param key of the tracker
+    Tell of(const std::string& key) const {
+        Tell of_tracker = *this;
+        of_tracker.tracker_ = key;
+        return of_tracker;
+    }
     /// @param line of the file; 0: the line of the check's key, if the file has it
-    void operator()(const CheckedRoom& room, int line, const std::string& text,
-                    const std::string& tracker = {}) const;
+    /// @param text a format with its values
+    template <class... Values>
+    void operator()(int line, fmt::format_string<Values...> text, Values&&... values) const {
+        add(line, fmt::format(text, std::forward<Values>(values)...));
+    }
 
   private:
+    void add(int line, const std::string& text) const;
+
     const Check& check_;
+    const CheckedRoom& room_;
     std::vector<ConfigProblem>& found_;
+    std::string tracker_;
 };
 
 // The checks of each topic. A further check is a function and its row in one of these.

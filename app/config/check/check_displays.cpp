@@ -3,7 +3,6 @@
 
 #include "stereo/screen.h"
 
-#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -13,7 +12,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -70,13 +68,10 @@ void exchanged_displays(const CheckedRoom& room, const Tell& tell) {
                 continue;
             told = true;
             const char* const words[][2]{{"left of", "right of"}, {"below", "above"}};
-            tell(room, in_a_window ? b.line() : b.window().line.number,
-                 fmt::format("{} is {} {} by its corners, and {} it by its pixels: position counts "
-                             "from the {}",
-                             name_of(*b.place), words[i][wall[i] > 0], name_of(*a.place),
-                             words[i][wall[i] < 0],
-                             in_a_window ? "lower left of the window"
-                                         : "upper left of the desktop"));
+            tell(in_a_window ? b.line() : b.window().line.number,
+                 "{} is {} {} by its corners, and {} it by its pixels: position counts from the {}",
+                 name_of(*b.place), words[i][wall[i] > 0], name_of(*a.place), words[i][wall[i] < 0],
+                 in_a_window ? "lower left of the window" : "upper left of the desktop");
         }
     });
 }
@@ -91,10 +86,10 @@ void unlike_pixels(const CheckedRoom& room, const Tell& tell) {
             std::max(one, other) < kUnlike * std::min(one, other))
             return;
         told = true;
-        tell(room, b.window().line.number,
-             fmt::format("{} has pixels of {:.2f} mm, and {}, which is as large, of {:.2f} mm: are "
-                         "both sizes the displays' own?",
-                         name_of(*b.place), 1000 * other, name_of(*a.place), 1000 * one));
+        tell(b.window().line.number,
+             "{} has pixels of {:.2f} mm, and {}, which is as large, of {:.2f} mm: are both sizes "
+             "the displays' own?",
+             name_of(*b.place), 1000 * other, name_of(*a.place), 1000 * one);
     });
 }
 
@@ -107,10 +102,9 @@ void covering_displays(const CheckedRoom& room, const Tell& tell) {
         const glm::vec2 left = glm::max(1.0f - glm::abs(way_on_wall(a, b)), 0.0f);
         if (a.place->viewport.viewer == b.place->viewport.viewer && in_one_wall(a, b) &&
             alike(a, b) && !same_place(a, b) && !pair_of_eyes && left.x * left.y > kMost)
-            tell(room, b.line(),
-                 fmt::format("{} lies over {:.0f} % of {}: projectors that are blended share 10 to "
-                             "30 %",
-                             name_of(*b.place), 100 * left.x * left.y, name_of(*a.place)));
+            tell(b.line(),
+                 "{} lies over {:.0f} % of {}: projectors that are blended share 10 to 30 %",
+                 name_of(*b.place), 100 * left.x * left.y, name_of(*a.place));
     });
 }
 
@@ -136,11 +130,10 @@ void crossing_walls(const CheckedRoom& room, const Tell& tell) {
         const float b_in_a = stands_within(b, a), a_in_b = stands_within(a, b);
         const bool first = b_in_a > 0;
         if (first || a_in_b > 0)
-            tell(room, b.line(),
-                 fmt::format("{} stands in the middle of {}, {:.2f} m from its side: walls meet at "
-                             "their sides",
-                             name_of(*(first ? b : a).place), name_of(*(first ? a : b).place),
-                             first ? b_in_a : a_in_b));
+            tell(b.line(),
+                 "{} stands in the middle of {}, {:.2f} m from its side: walls meet at their sides",
+                 name_of(*(first ? b : a).place), name_of(*(first ? a : b).place),
+                 first ? b_in_a : a_in_b);
     });
 }
 
@@ -159,9 +152,8 @@ void skewed_corners(const CheckedRoom& room, const Tell& tell) {
                 const float off = std::abs(angle - 90);
                 if (glm::distance(a.middle + on_a, b.middle + on_b) < kMeet && off > kMeasured &&
                     off < kMeant)
-                    tell(room, b.line(),
-                         fmt::format("{} and {} meet at {:.1f} degrees: is one of them turned?",
-                                     name_of(*a.place), name_of(*b.place), angle));
+                    tell(b.line(), "{} and {} meet at {:.1f} degrees: is one of them turned?",
+                         name_of(*a.place), name_of(*b.place), angle);
             }
     });
 }
@@ -179,19 +171,19 @@ void monitors_of_machines(const CheckedRoom& room, const Tell& tell) {
             if (last = window; !monitors.insert(window->monitor).second)
                 return;
     if (monitors.size() > 2)
-        tell(room, last->line.number,
-             fmt::format("node {} opens window {} alone, on monitor {}: each machine counts its "
-                         "own monitors from 0",
-                         last->node, last->name, last->monitor));
+        tell(last->line.number,
+             "node {} opens window {} alone, on monitor {}: each machine counts its own monitors "
+             "from 0",
+             last->node, last->name, last->monitor);
 }
 
 void places_of_fullscreen(const CheckedRoom& room, const Tell& tell) {
     for (const stereo::Window& window : room.installation().windows)
         if (window.fullscreen && std::max(window.position.x, window.position.y) > 0)
-            tell(room, window.line.number,
-                 fmt::format("window {} covers a monitor, so its position has no effect: monitor "
-                             "says which one",
-                             window.name));
+            tell(
+                window.line.number,
+                "window {} covers a monitor, so its position has no effect: monitor says which one",
+                window.name);
 }
 
 void names_of_viewports(const CheckedRoom& room, const Tell& tell) {
@@ -199,9 +191,8 @@ void names_of_viewports(const CheckedRoom& room, const Tell& tell) {
         std::set<std::string> names;
         for (const stereo::Viewport& viewport : window.viewports)
             if (!viewport.name.empty() && !names.insert(viewport.name).second)
-                tell(room, viewport.screen.line.number,
-                     fmt::format("two viewports of window {} are called {}", window.name,
-                                 viewport.name));
+                tell(viewport.screen.line.number, "two viewports of window {} are called {}",
+                     window.name, viewport.name);
     }
 }
 
@@ -219,10 +210,10 @@ void screens_of_eyes(const CheckedRoom& room, const Tell& tell) {
                 right.viewport.screen.carried_by_head &&
                 left.viewport.viewer == right.viewport.viewer &&
                 middle(left) - middle(right) > kAside * stereo::size_of(screen).x)
-                tell(room, right.line,
-                     fmt::format("{} is for the left eye and reaches farther to the right than {}: "
-                                 "are they exchanged?",
-                                 name_of(left), name_of(right)));
+                tell(right.line,
+                     "{} is for the left eye and reaches farther to the right than {}: are they "
+                     "exchanged?",
+                     name_of(left), name_of(right));
         }
 }
 

@@ -33,8 +33,7 @@ void viewers_without_viewport(const CheckedRoom& room, const Tell& tell) {
         if (std::ranges::none_of(room.viewports(), [&](const PlacedViewport& place) {
                 return place.viewport.viewer == number;
             }))
-            tell(room, viewer.line.number,
-                 fmt::format("no viewport is for viewer {}", viewer.name));
+            tell(viewer.line.number, "no viewport is for viewer {}", viewer.name);
     });
 }
 
@@ -42,9 +41,8 @@ void shared_heads(const CheckedRoom& room, const Tell& tell) {
     each_viewer(room, [&](const Viewer& viewer, std::size_t number) {
         for (std::size_t j = 0; j < number; ++j)
             if (const Viewer& other = room.installation().viewers[j]; viewer.head == other.head)
-                tell(room, viewer.line.number,
-                     fmt::format("device {} tracks viewer {} and viewer {}", viewer.head,
-                                 other.name, viewer.name));
+                tell(viewer.line.number, "device {} tracks viewer {} and viewer {}", viewer.head,
+                     other.name, viewer.name);
     });
 }
 
@@ -59,27 +57,25 @@ void places_of_viewers(const CheckedRoom& room, const Tell& tell) {
             const Box box = CheckedRoom::box_of(walls);
             const float away = glm::distance(at, glm::clamp(at, box.low, box.high));
             if (away > std::max(kRoomAround, glm::distance(box.low, box.high)))
-                return tell(room, line,
-                            fmt::format("{} is {:.4g} m from all of the screens, {:.4g} m up: "
-                                        "positions are in meters{}",
-                                        viewer.name, away, at.y, other_unit(at.y, 0.9f, 2.1f)));
+                return tell(line,
+                            "{} is {:.4g} m from all of the screens, {:.4g} m up: positions are in "
+                            "meters{}",
+                            viewer.name, away, at.y, other_unit(at.y, 0.9f, 2.1f));
         }
         const float level = floor_level(walls), up = at.y - level;
         const float foot = walls.empty() ? level : CheckedRoom::box_of(walls).low.y; // foot of a stage
         if (up > kTallest + 0.5f || at.y - std::max(level, foot) > kTallest)
-            return tell(room, line,
-                        fmt::format("{}: the eyes are {:.2f} m above the floor: are position and "
-                                    "corners in meters, from one origin on the floor?{}",
-                                    viewer.name, up, other_unit(at.y, 0.9f, 2.1f)));
+            return tell(line,
+                        "{}: the eyes are {:.2f} m above the floor: are position and corners in "
+                        "meters, from one origin on the floor?{}",
+                        viewer.name, up, other_unit(at.y, 0.9f, 2.1f));
         const bool stands_in_room = std::ranges::any_of(walls, [&](const Wall* wall) {
             return wall->is_floor() || (!wall->is_level() && wall->size.y >= kWallHigh &&
                                         CheckedRoom::box_of(walls).low.y > -0.3f);
         });
         if (stands_in_room && up < kLowest)
-            tell(room, line,
-                 fmt::format("{}: the eyes are {:.3g} m above the floor, at {}: y points up, in "
-                             "meters",
-                             viewer.name, up, at_place(at)));
+            tell(line, "{}: the eyes are {:.3g} m above the floor, at {}: y points up, in meters",
+                 viewer.name, up, at_place(at));
     });
 }
 
@@ -94,10 +90,10 @@ void viewers_outside(const CheckedRoom& room, const Tell& tell) {
                     continue;
                 const float top = CheckedRoom::box_of(walls).high.y;
                 if (viewer.position.y > top + kAbove)
-                    return tell(room, viewer.line.number,
-                                fmt::format("{} at {} looks over walls that face each other and "
-                                            "end {:.2f} m up: corners are in meters",
-                                            viewer.name, at_place(viewer.position), top));
+                    return tell(viewer.line.number,
+                                "{} at {} looks over walls that face each other and end {:.2f} m "
+                                "up: corners are in meters",
+                                viewer.name, at_place(viewer.position), top);
             }
     });
 }
@@ -109,9 +105,8 @@ void viewers_at_walls(const CheckedRoom& room, const Tell& tell) {
         const float away = glm::dot(viewer.position - wall.middle, wall.normal);
         if (away > 0 && away < kTooNear && std::min(wall.size.x, wall.size.y) > kLarge &&
             wall.is_met(viewer.position, -wall.normal))
-            tell(room, viewer.line.number,
-                 fmt::format("{} at {} touches {}, {:.0f} mm away: meters in the room", viewer.name,
-                             at_place(viewer.position), name_of(*wall.place), 1000 * away));
+            tell(viewer.line.number, "{} at {} touches {}, {:.0f} mm away: meters in the room",
+                 viewer.name, at_place(viewer.position), name_of(*wall.place), 1000 * away);
     }
 }
 
@@ -133,9 +128,8 @@ void distances_of_eyes(const CheckedRoom& room, const Tell& tell) {
         else if ((apart < kNarrow && apart > 0 && has_stereo(room, number)) || apart > kWide)
             why = "people's eyes are 50 to 75 mm apart; meters from one eye to the other";
         if (why)
-            tell(room, viewer.line.number,
-                 fmt::format("{}: the eyes are {:.3g} mm apart: {}", viewer.name, 1000 * apart,
-                             why));
+            tell(viewer.line.number, "{}: the eyes are {:.3g} mm apart: {}", viewer.name,
+                 1000 * apart, why);
     });
 }
 
@@ -158,9 +152,9 @@ void places_of_eyes(const CheckedRoom& room, const Tell& tell) {
         else if (left.x > -kBeside || right.x < kBeside)
             why = "both eyes are on one side of the origin, which is the point between the eyes";
         if (!why.empty())
-            tell(room, viewer.line.number,
-                 fmt::format("{}: {}: meters in the frame of the head (x right, y up, z back)",
-                             viewer.name, why));
+            tell(viewer.line.number,
+                 "{}: {}: meters in the frame of the head (x right, y up, z back)", viewer.name,
+                 why);
     }
 }
 
@@ -170,7 +164,7 @@ void forgotten_stereo(const CheckedRoom& room, const Tell& tell) {
                             room.has("viewers.eye_separation") || room.has("viewers.left_eye");
     if (eyes_given && !room.has("windows.stereo") && !room.config().devices.empty() &&
         room.walls().size() > 1 && room.viewer_of(room.walls().front()).eye_separation > 0)
-        tell(room, room.walls().front().window().line.number,
+        tell(room.walls().front().window().line.number,
              "no window has a stereo mode, so both eyes of a tracked viewer see one picture: "
              "\"mono\" says that it is meant");
 }
@@ -204,7 +198,7 @@ std::optional<glm::vec3> way_to_data(const CheckedRoom& room) {
 
 void order_of_planes(const CheckedRoom& room, const Tell& tell) {
     if (room.installation().near_plane >= room.installation().far_plane)
-        tell(room, 0, "it is not nearer than rendering.far");
+        tell(0, "it is not nearer than rendering.far");
 }
 
 void near_planes(const CheckedRoom& room, const Tell& tell) {
@@ -212,20 +206,19 @@ void near_planes(const CheckedRoom& room, const Tell& tell) {
     const float front = room.installation().near_plane, farthest = farthest_screen(room),
                 nearest = nearest_screen(room);
     if (front >= farthest)
-        tell(room, 0,
-             fmt::format("{:.4g} m is behind all screens, the farthest of which is {:.4g} m from "
-                         "its viewer: what is nearer is not drawn",
-                         front, farthest));
+        tell(0,
+             "{:.4g} m is behind all screens, the farthest of which is {:.4g} m from its viewer: "
+             "what is nearer is not drawn",
+             front, farthest);
     else if (front > kReach)
-        tell(room, 0,
-             fmt::format("{:.4g} m: what is nearer to the eyes is not drawn, and that is within "
-                         "reach: meters",
-                         front));
+        tell(0,
+             "{:.4g} m: what is nearer to the eyes is not drawn, and that is within reach: meters",
+             front);
     else if (front > kBefore * nearest)
-        tell(room, 0,
-             fmt::format("{:.4g} m: a screen is {:.4g} m from its viewer, and most of what stands "
-                         "out of it is not drawn",
-                         front, nearest));
+        tell(0,
+             "{:.4g} m: a screen is {:.4g} m from its viewer, and most of what stands out of it is "
+             "not drawn",
+             front, nearest);
 }
 
 void far_planes(const CheckedRoom& room, const Tell& tell) {
@@ -234,20 +227,19 @@ void far_planes(const CheckedRoom& room, const Tell& tell) {
     const auto way = way_to_data(room);
     const auto half = static_cast<float>(0.5 * room.config().placement.size);
     if (back <= nearest)
-        tell(room, 0,
-             fmt::format("{:.4g} m is in front of all screens, the nearest of which is {:.4g} m "
-                         "from its viewer: what is farther is not drawn",
-                         back, nearest));
+        tell(0,
+             "{:.4g} m is in front of all screens, the nearest of which is {:.4g} m from its "
+             "viewer: what is farther is not drawn",
+             back, nearest);
     else if (back < farthest)
-        tell(room, 0,
-             fmt::format("{:.4g} m is in front of a screen that is {:.4g} m from its viewer: what "
-                         "is farther is not drawn",
-                         back, farthest));
+        tell(0,
+             "{:.4g} m is in front of a screen that is {:.4g} m from its viewer: what is farther "
+             "is not drawn",
+             back, farthest);
     else if (way && back < glm::length(*way) - half)
-        tell(room, 0,
-             fmt::format("{:.4g} m is before the data, which begin {:.4g} m away: what is farther "
-                         "is not drawn",
-                         back, glm::length(*way) - half));
+        tell(0,
+             "{:.4g} m is before the data, which begin {:.4g} m away: what is farther is not drawn",
+             back, glm::length(*way) - half);
 }
 
 /// Whether a part of the data's cube is seen through a wall, or before one.
@@ -301,9 +293,8 @@ void places_of_data(const CheckedRoom& room, const Tell& tell) {
         why = fmt::format("the data are {:.1f} degrees wide and out of reach: meters",
                           glm::degrees(size / away));
     if (!why.empty())
-        tell(room, 0,
-             fmt::format("size = {:g}, height = {:g}, distance = {:g}: {}", placed.size,
-                         placed.height, placed.distance, why));
+        tell(0, "size = {:g}, height = {:g}, distance = {:g}: {}", placed.size, placed.height,
+             placed.distance, why);
 }
 
 void fading(const CheckedRoom& room, const Tell& tell) {
@@ -311,15 +302,13 @@ void fading(const CheckedRoom& room, const Tell& tell) {
     const glm::vec2 fade = room.config().comfort.near_fade;
     const auto way = way_to_data(room);
     if (fade.x > kNone || fade.y > kWhole)
-        tell(room, 0,
-             fmt::format("nothing is drawn nearer than {:g} m, and all only beyond {:g} m: data "
-                         "within reach vanish",
-                         fade.x, fade.y));
+        tell(0,
+             "nothing is drawn nearer than {:g} m, and all only beyond {:g} m: data within reach "
+             "vanish",
+             fade.x, fade.y);
     else if (way && fade.y > glm::length(*way) + 0.5 * room.config().placement.size)
-        tell(room, 0,
-             fmt::format("all data fade, as they are nearer than {:g} m at their place, {:.2f} m "
-                         "away",
-                         fade.y, glm::length(*way)));
+        tell(0, "all data fade, as they are nearer than {:g} m at their place, {:.2f} m away",
+             fade.y, glm::length(*way));
 }
 
 constexpr Check kOfViewers[]{

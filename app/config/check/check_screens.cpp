@@ -3,7 +3,6 @@
 
 #include "stereo/screen.h"
 
-#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -25,17 +24,16 @@ void geometry(const CheckedRoom& room, const Tell& tell) {
     for (const PlacedViewport& place : room.viewports())
         for (const std::string& problem :
              stereo::problems(place.viewport.screen, room.viewer_of(place).position))
-            tell(room, place.line, fmt::format("{}: {}", name_of(place), problem));
+            tell(place.line, "{}: {}", name_of(place), problem);
 }
 
 void impossible_sizes(const CheckedRoom& room, const Tell& tell) {
     for (const PlacedViewport& place : room.viewports()) {
         const glm::vec2 size = stereo::size_of(place.viewport.screen);
         if (std::max(size.x, size.y) > kLargest || std::min(size.x, size.y) < kSmallest)
-            tell(room, place.line,
-                 fmt::format("{}: {:.4g} x {:.4g} m is no size of a screen: corners are in "
-                             "meters{}",
-                             name_of(place), size.x, size.y, other_unit(size.x, 0.3f, 10)));
+            tell(place.line,
+                 "{}: {:.4g} x {:.4g} m is no size of a screen: corners are in meters{}",
+                 name_of(place), size.x, size.y, other_unit(size.x, 0.3f, 10));
     }
 }
 
@@ -50,11 +48,10 @@ void unlikely_sizes(const CheckedRoom& room, const Tell& tell) {
         const bool tall = size.y > kTall && !wall.is_level();
         if (std::max(size.x, size.y) <= kLargest &&
             ((tall && faced) || ((tall || size.x > kWide) && std::max(pixel.x, pixel.y) > kFine)))
-            tell(room, wall.line(),
-                 fmt::format("{}: {:.4g} x {:.4g} m, with pixels of {:.1f} mm: corners are in "
-                             "meters{}",
-                             name_of(*wall.place), size.x, size.y,
-                             1000 * std::max(pixel.x, pixel.y), other_unit(size.x, 1, 5)));
+            tell(wall.line(),
+                 "{}: {:.4g} x {:.4g} m, with pixels of {:.1f} mm: corners are in meters{}",
+                 name_of(*wall.place), size.x, size.y, 1000 * std::max(pixel.x, pixel.y),
+                 other_unit(size.x, 1, 5));
     }
 }
 
@@ -62,14 +59,13 @@ void turned_floors(const CheckedRoom& room, const Tell& tell) {
     for (const Wall& wall : room.walls()) {
         const glm::vec3 up = wall.up;
         if (wall.normal.y > kLevelled && std::max(up.z, std::abs(up.x)) > kLevelled)
-            tell(room, wall.line(),
-                 fmt::format("{}: a floor whose upper edge is at the {}: {} to who faces the front "
-                             "(-Z)",
-                             name_of(*wall.place),
-                             up.z > kLevelled ? "back"
-                             : up.x > 0       ? "right"
-                                              : "left",
-                             up.z > kLevelled ? "upside down" : "turned by 90 degrees"));
+            tell(wall.line(),
+                 "{}: a floor whose upper edge is at the {}: {} to who faces the front (-Z)",
+                 name_of(*wall.place),
+                 up.z > kLevelled ? "back"
+                 : up.x > 0       ? "right"
+                                  : "left",
+                 up.z > kLevelled ? "upside down" : "turned by 90 degrees");
     }
 }
 
@@ -79,10 +75,10 @@ void turned_walls(const CheckedRoom& room, const Tell& tell) {
     for (const Wall& wall : room.walls())
         if (!wall.is_level() && std::abs(wall.across.y) > kLevelled &&
             wall.size.x < kOblong * wall.size.y)
-            tell(room, wall.line(),
-                 fmt::format("{}: its left edge is at the {}, so the picture lies on its side: "
-                             "upper_left, or the order of the corners, is another one; y points up",
-                             name_of(*wall.place), wall.across.y > 0 ? "bottom" : "top"));
+            tell(wall.line(),
+                 "{}: its left edge is at the {}, so the picture lies on its side: upper_left, or "
+                 "the order of the corners, is another one; y points up",
+                 name_of(*wall.place), wall.across.y > 0 ? "bottom" : "top");
 }
 
 /// A front wall is a ceiling, and other walls lie on their side, where z points up.
@@ -98,7 +94,7 @@ void z_up(const CheckedRoom& room, const Tell& tell) {
         if (at.z > 0.8f && at.z < 2.3f && std::abs(at.y) < 0.6f &&
             std::ranges::any_of(walls, lying) && std::ranges::none_of(walls, upright))
             tell(
-                room, walls.front()->line(),
+                walls.front()->line(),
                 "z points up in the corners and in viewer.position; in the room y points up and -z "
                 "to the front: x y z of a frame with y to the front is x z -y");
     }
@@ -110,11 +106,10 @@ void oblong_pixels(const CheckedRoom& room, const Tell& tell) {
         const glm::vec2 pixel = pixel_size(place), size = stereo::size_of(screen);
         const float aspect = pixel.x / pixel.y;
         if (!screen.fit_aspect && std::abs(aspect - 1.0f) > kSquare)
-            tell(room, place.line,
-                 fmt::format("{}: its pixels are not square: {:.2f} times as wide as high "
-                             "({:.0f} x {:.0f} pixels on {:.2f} x {:.2f} m)",
-                             name_of(place), aspect, pixels_of(place).x, pixels_of(place).y, size.x,
-                             size.y));
+            tell(place.line,
+                 "{}: its pixels are not square: {:.2f} times as wide as high ({:.0f} x {:.0f} "
+                 "pixels on {:.2f} x {:.2f} m)",
+                 name_of(place), aspect, pixels_of(place).x, pixels_of(place).y, size.x, size.y);
     }
 }
 
@@ -125,12 +120,11 @@ void coarse_pixels(const CheckedRoom& room, const Tell& tell) {
         const glm::vec2 pixel = pixel_size(*wall.place), count = pixels_of(*wall.place);
         const float side = std::min(pixel.x, pixel.y);
         if (side > kHuge || (side > kCoarse && std::max(count.x, count.y) >= kThumbnail))
-            tell(room, wall.line(),
-                 fmt::format("{}: {:.0f} x {:.0f} pixels on {:.2f} x {:.2f} m are {:.0f} mm each: "
-                             "windows have a size in pixels, screens one in meters",
-                             name_of(*wall.place), pixels_of(*wall.place).x,
-                             pixels_of(*wall.place).y, wall.size.x, wall.size.y,
-                             1000 * std::min(pixel.x, pixel.y)));
+            tell(wall.line(),
+                 "{}: {:.0f} x {:.0f} pixels on {:.2f} x {:.2f} m are {:.0f} mm each: windows have "
+                 "a size in pixels, screens one in meters",
+                 name_of(*wall.place), pixels_of(*wall.place).x, pixels_of(*wall.place).y,
+                 wall.size.x, wall.size.y, 1000 * std::min(pixel.x, pixel.y));
     }
 }
 
@@ -144,10 +138,10 @@ void missing_corners(const CheckedRoom& room, const Tell& tell) {
         const stereo::Screen& screen = place.viewport.screen;
         if (!screen.carried_by_head && has_usual_corners(screen) && !screen.fit_aspect &&
             others_in_room)
-            tell(room, place.line,
-                 fmt::format("{} has no corners, those of others are given: it shows a screen of "
-                             "1.6 x 0.9 m, 1 m ahead",
-                             name_of(place)));
+            tell(place.line,
+                 "{} has no corners, those of others are given: it shows a screen of 1.6 x 0.9 m, "
+                 "1 m ahead",
+                 name_of(place));
     }
 }
 
@@ -176,11 +170,11 @@ void carried_screens(const CheckedRoom& room, const Tell& tell) {
                 least = std::min(least, glm::degrees(std::acos(-middle.z / glm::length(middle))));
         }
         if (first && (!ahead || least > kSteepest))
-            tell(room, first->line,
-                 fmt::format("{}: the middle of a screen that the head carries is {:.0f} degrees "
-                             "off where the eyes look: its corners are measured from between the "
-                             "eyes; with carried_by = \"room\" they are in the room",
-                             name_of(*first), least));
+            tell(first->line,
+                 "{}: the middle of a screen that the head carries is {:.0f} degrees off where the "
+                 "eyes look: its corners are measured from between the eyes; with carried_by = "
+                 "\"room\" they are in the room",
+                 name_of(*first), least);
     }
 }
 
@@ -194,12 +188,11 @@ void corners_from_the_eyes(const CheckedRoom& room, const Tell& tell) {
         const float height = room.installation().viewers[i].position.y;
         if (std::max(std::abs(wall.middle.x), std::abs(wall.middle.y)) < 1e-3f &&
             height > 0.5f * wall.size.y)
-            tell(room, wall.line(),
-                 fmt::format(
-                     "{}: its corners lie around the origin, {:.2f} m below the viewer: "
-                     "carried_by = \"head\" if they are measured from the eyes; in the room, "
-                     "viewer.position and corners have one origin",
-                     name_of(*wall.place), height));
+            tell(wall.line(),
+                 "{}: its corners lie around the origin, {:.2f} m below the viewer: carried_by = "
+                 "\"head\" if they are measured from the eyes; in the room, viewer.position and "
+                 "corners have one origin",
+                 name_of(*wall.place), height);
     }
 }
 
@@ -212,10 +205,10 @@ void fitted_walls(const CheckedRoom& room, const Tell& tell) {
             continue;
         const glm::vec2 pixel = pixel_size(place);
         if (std::abs(pixel.x / pixel.y - 1.0f) > kSquare)
-            tell(room, place.line,
-                 fmt::format("{}: its corners are widened to the window's shape, which a real wall "
-                             "is not: fit_aspect is for windows on a desktop",
-                             name_of(place)));
+            tell(place.line,
+                 "{}: its corners are widened to the window's shape, which a real wall is not: "
+                 "fit_aspect is for windows on a desktop",
+                 name_of(place));
     }
 }
 
@@ -278,11 +271,10 @@ void names_of_sides(const CheckedRoom& room, const Tell& tell) {
         unless("floor", wall.normal.y < 0.5f, "not seen from above");
         unless("ceiling", wall.normal.y > -0.5f, "not seen from below");
         if (is)
-            tell(room, wall.line(),
-                 fmt::format("{}: its name says {}, and by its corners it is {}: the front is at "
-                             "-Z, +X on the right; are corners exchanged with those of another "
-                             "wall, or is the room turned?",
-                             name_of(*wall.place), named, is));
+            tell(wall.line(),
+                 "{}: its name says {}, and by its corners it is {}: the front is at -Z, +X on the "
+                 "right; are corners exchanged with those of another wall, or is the room turned?",
+                 name_of(*wall.place), named, is);
     }
 }
 
@@ -301,10 +293,10 @@ void nothing_ahead(const CheckedRoom& room, const Tell& tell) {
                     walls, [&](const Wall* wall) { return wall->is_met(eyes, direction); });
             }
         if (!walls.empty() && !ahead)
-            tell(room, walls.front()->line(),
-                 fmt::format("no wall is ahead of {} at ({:g} {:g} {:g}), where data are placed: "
-                             "the front is at -Z",
-                             room.installation().viewers[i].name, eyes.x, eyes.y, eyes.z));
+            tell(walls.front()->line(),
+                 "no wall is ahead of {} at ({:g} {:g} {:g}), where data are placed: the front is "
+                 "at -Z",
+                 room.installation().viewers[i].name, eyes.x, eyes.y, eyes.z);
     }
 }
 
@@ -317,20 +309,20 @@ void odd_rows(const CheckedRoom& room, const Tell& tell) {
                          : window.stereo == StereoMode::checkerboard ? (at.x + at.y) % 2 == 1
                                                                      : false;
         if (odd && !window.fullscreen && at != glm::ivec2(-1))
-            tell(room, window.line.number,
-                 fmt::format("window {} begins at {}, {}, where the monitor's rows or columns are "
-                             "for the other eye: {}_inverted, or an even position",
-                             window.name, at.x, at.y, stereo::name_of(window.stereo)));
+            tell(window.line.number,
+                 "window {} begins at {}, {}, where the monitor's rows or columns are for the "
+                 "other eye: {}_inverted, or an even position",
+                 window.name, at.x, at.y, stereo::name_of(window.stereo));
     }
 }
 
 void unused_monitor(const CheckedRoom& room, const Tell& tell) {
     for (const stereo::Window& window : room.installation().windows)
         if (window.monitor != stereo::kNextMonitor && !window.fullscreen)
-            tell(room, window.line.number,
-                 fmt::format("window {} does not go to monitor {}: without fullscreen = true, "
-                             "position says where it is",
-                             window.name, window.monitor));
+            tell(window.line.number,
+                 "window {} does not go to monitor {}: without fullscreen = true, position says "
+                 "where it is",
+                 window.name, window.monitor);
 }
 
 void hidden_windows(const CheckedRoom& room, const Tell& tell) {
@@ -340,9 +332,8 @@ void hidden_windows(const CheckedRoom& room, const Tell& tell) {
     const bool covers =
         std::ranges::any_of(room.installation().windows, &stereo::Window::fullscreen);
     if (covers || !room.config().devices.empty())
-        tell(room, 0,
-             fmt::format("{} shows no window, and {} for one: \"glfw\"", stereo::name_of(context),
-                         covers ? "fullscreen asks" : "trackers are"));
+        tell(0, "{} shows no window, and {} for one: \"glfw\"", stereo::name_of(context),
+             covers ? "fullscreen asks" : "trackers are");
 }
 
 constexpr const char* kProjection = "windows.viewports.projection";

@@ -96,10 +96,8 @@ void unusual_values(const CheckedRoom& room, const Tell& tell) {
                 (value >= usual.low - slack && value <= usual.high + slack) ||
                 !told.emplace(name, value).second)
                 continue;
-            tell(room, line,
-                 fmt::format("{:.6g} {} is unusual, expected {:g} to {:g}{}", value, usual.unit,
-                             usual.low, usual.high, confused(usual, value)),
-                 path);
+            tell.of(path)(line, "{:.6g} {} is unusual, expected {:g} to {:g}{}", value, usual.unit,
+                          usual.low, usual.high, confused(usual, value));
         }
     });
 }
@@ -121,7 +119,7 @@ void orders(const CheckedRoom& room, const Tell& tell) {
                 [&](const std::string& path, double value, int) { numbers[path] = value; });
     for (const auto& [key, least] : kOrders)
         if (const double value = numbers[key], low = numbers[least]; value > 0 && value < low)
-            tell(room, 0, fmt::format("{:g} is less than {}, {:g}", value, least, low), key);
+            tell.of(key)(0, "{:g} is less than {}, {:g}", value, least, low);
 }
 
 /// Keys of what another key turns on, and a file that does not have that key.
@@ -137,13 +135,13 @@ constexpr std::pair<const char*, const char*> kSwitches[]{
 void left_off(const CheckedRoom& room, const Tell& tell) {
     for (const auto& [key, on] : kSwitches)
         if (room.has(key) && !room.has(on))
-            tell(room, room.line_of(key), fmt::format("{} has no effect without it", key), on);
+            tell.of(on)(room.line_of(key), "{} has no effect without it", key);
 }
 
 void odd_samples(const CheckedRoom& room, const Tell& tell) {
     const auto samples = static_cast<unsigned>(room.config().rendering.samples);
     if (samples != 0 && (!std::has_single_bit(samples) || samples > 16))
-        tell(room, 0, fmt::format("{}: drivers have 2, 4, 8 or 16 samples of a pixel", samples));
+        tell(0, "{}: drivers have 2, 4, 8 or 16 samples of a pixel", samples);
 }
 
 /// Shutters open with each picture of the display: an eye would see parts of the other's.
@@ -152,7 +150,7 @@ void unpaced_shutters(const CheckedRoom& room, const Tell& tell) {
         std::ranges::any_of(room.installation().windows, [](const stereo::Window& window) {
             return stereo::upright(window.stereo) == stereo::StereoMode::quadbuffer;
         }))
-        tell(room, 0, "with \"quadbuffer\", pictures have to wait for the display");
+        tell(0, "with \"quadbuffer\", pictures have to wait for the display");
 }
 
 /// A frame's time for drawing that is longer than the frame.
@@ -161,14 +159,11 @@ void budgets_of_frames(const CheckedRoom& room, const Tell& tell) {
     const double budget = room.config().quality.frame_budget_ms,
                  period = 1000.0 / double(room.config().rendering.frame_rate_limit);
     if (room.has("rendering.frame_rate_limit") && budget > kSlack * period)
-        tell(room, 0,
-             fmt::format("{:g} ms for drawing, and {:.3g} ms for a frame of "
-                         "rendering.frame_rate_limit",
-                         budget, period));
+        tell(0, "{:g} ms for drawing, and {:.3g} ms for a frame of rendering.frame_rate_limit",
+             budget, period);
     else if (room.config().openxr.enabled && budget > kSlack * kOfHeadset)
-        tell(room, 0,
-             fmt::format("{:g} ms for drawing, and headsets show a frame every {:.3g} ms or sooner",
-                         budget, kOfHeadset));
+        tell(0, "{:g} ms for drawing, and headsets show a frame every {:.3g} ms or sooner", budget,
+             kOfHeadset);
 }
 
 void size_of_panel(const CheckedRoom& room, const Tell& tell) {
@@ -176,45 +171,42 @@ void size_of_panel(const CheckedRoom& room, const Tell& tell) {
     const auto& panel = room.config().panel;
     const float seen = glm::degrees(2 * std::atan(0.5f * panel.width / panel.distance));
     if (seen < kSmallest || seen > kLargest)
-        tell(room, 0,
-             fmt::format("{:g} m wide and {:g} m away, it is {:.0f} degrees wide for the eyes: {}",
-                         panel.width, panel.distance, seen,
-                         seen < kSmallest ? "too small to be read" : "too large to be seen"));
+        tell(0, "{:g} m wide and {:g} m away, it is {:.0f} degrees wide for the eyes: {}",
+             panel.width, panel.distance, seen,
+             seen < kSmallest ? "too small to be read" : "too large to be seen");
 }
 
 void cluster_of_one(const CheckedRoom& room, const Tell& tell) {
     if (room.has("cluster") && stereo::node_count(room.installation()) == 1)
-        tell(room, room.line_of("cluster"), "no window names a node, so there is one process");
+        tell(room.line_of("cluster"), "no window names a node, so there is one process");
 }
 
 /// What is said of data in a window, of a room.
 void filled_rooms(const CheckedRoom& room, const Tell& tell) {
     if (room.config().placement.fill > 0 && !room.walls().empty())
-        tell(room, 0,
-             "it is for a window on a desktop, and has no effect on walls: size, height and "
-             "distance say where the data are");
+        tell(0, "it is for a window on a desktop, and has no effect on walls: size, height and "
+                "distance say where the data are");
 }
 
 /// A headset beside walls, which show the mirror of it.
 void headset_in_a_room(const CheckedRoom& room, const Tell& tell) {
     if (room.config().openxr.enabled && room.walls().size() > 1)
-        tell(room, 0, "the walls only mirror the headset while it is there");
+        tell(0, "the walls only mirror the headset while it is there");
 }
 
 void dark_lights(const CheckedRoom& room, const Tell& tell) {
     const render::CellAppearance& light = room.config().rendering.appearance;
     if (light.ambient + light.head_light + light.key_light < 0.05f)
-        tell(room, 0, "with all lights at 0, surfaces are black");
+        tell(0, "with all lights at 0, surfaces are black");
     else if (light.key_light > 0 &&
              light.key_direction.y < -0.5f * glm::length(light.key_direction))
-        tell(room, 0,
-             "lighting.key_direction points down: it is the way to the light, and y is up");
+        tell(0, "lighting.key_direction points down: it is the way to the light, and y is up");
     const auto& angles = room.config().start.look.light;
     if (angles && (*angles)[1] < -30)
-        tell(room, room.line_of("look.light"), "the light comes from below the floor");
+        tell(room.line_of("look.light"), "the light comes from below the floor");
     else if (angles && std::abs((*angles)[0]) < 3.2 && std::abs((*angles)[1]) < 1.6 &&
              std::floor((*angles)[1]) != (*angles)[1])
-        tell(room, room.line_of("look.light"), "its angles are degrees: are these radians?");
+        tell(room.line_of("look.light"), "its angles are degrees: are these radians?");
 }
 
 void unseen_surfaces(const CheckedRoom& room, const Tell& tell) {
@@ -222,25 +214,23 @@ void unseen_surfaces(const CheckedRoom& room, const Tell& tell) {
     std::set<double> isovalues;
     for (const ConfiguredSurface& surface : config.surfaces)
         if (surface.opacity <= 0)
-            tell(room, room.line_of("surfaces.opacity"), "an opacity of 0 shows no surface");
+            tell(room.line_of("surfaces.opacity"), "an opacity of 0 shows no surface");
         else if (glm::distance(surface.color, config.rendering.background) < 0.05f)
-            tell(room, room.line_of("surfaces.color"), "a surface of the background's color");
+            tell(room.line_of("surfaces.color"), "a surface of the background's color");
         else if (!surface.isovalue && (surface.quantile <= 0 || surface.quantile >= 1))
-            tell(room, room.line_of("surfaces.quantile"),
-                 fmt::format("at a quantile of {:g} there is no surface", surface.quantile));
+            tell(room.line_of("surfaces.quantile"), "at a quantile of {:g} there is no surface",
+                 surface.quantile);
         else if (surface.isovalue && !isovalues.insert(*surface.isovalue).second)
-            tell(room, room.line_of("surfaces.isovalue"),
-                 fmt::format("two surfaces at {:g}", *surface.isovalue));
+            tell(room.line_of("surfaces.isovalue"), "two surfaces at {:g}", *surface.isovalue);
     if (config.surfaces.empty() &&
         glm::distance(config.rendering.surface_color, config.rendering.background) < 0.05f)
-        tell(room, room.line_of("rendering.surface_color"), "it is rendering.background's color");
+        tell(room.line_of("rendering.surface_color"), "it is rendering.background's color");
 }
 
 void percentiles(const CheckedRoom& room, const Tell& tell) {
     const auto& given = room.config().start.coloring.percentiles;
     if (given && (*given)[1] <= 1)
-        tell(room, 0,
-             fmt::format("{:g} and {:g}: percentiles go from 0 to 100", (*given)[0], (*given)[1]));
+        tell(0, "{:g} and {:g}: percentiles go from 0 to 100", (*given)[0], (*given)[1]);
 }
 
 constexpr Check kOfValues[]{

@@ -31,29 +31,24 @@ void overlapping_viewports(const CheckedRoom& room, const Tell& tell) {
             const glm::vec2 overlap =
                 (high - glm::max(a.position, b.position)) * glm::vec2(all[i].window.size);
             if (&all[i].window == &all[j].window && std::min(overlap.x, overlap.y) > 0.5f)
-                tell(room, all[i].line,
-                     fmt::format("{} overlaps another of the window's viewports by {:.0f} x {:.0f} "
-                                 "pixels",
-                                 name_of(all[i]), overlap.x, overlap.y));
+                tell(all[i].line,
+                     "{} overlaps another of the window's viewports by {:.0f} x {:.0f} pixels",
+                     name_of(all[i]), overlap.x, overlap.y);
         }
 }
 
 void same_eye_twice(const CheckedRoom& room, const Tell& tell) {
     each_pair(room, [&](const Wall& a, const Wall& b) {
         if (same_place(a, b) && shows_one_eye(a) && a.window().stereo == b.window().stereo)
-            tell(room, b.line(),
-                 fmt::format("{} and {} have the same corners, and both show the {} eye",
-                             name_of(*a.place), name_of(*b.place),
-                             stereo::name_of(a.window().stereo)));
+            tell(b.line(), "{} and {} have the same corners, and both show the {} eye",
+                 name_of(*a.place), name_of(*b.place), stereo::name_of(a.window().stereo));
     });
 }
 
 void repeated_walls(const CheckedRoom& room, const Tell& tell) {
     each_pair(room, [&](const Wall& a, const Wall& b) {
         if (same_place(a, b) && !(shows_one_eye(a) && shows_one_eye(b)))
-            tell(
-                room, b.line(),
-                fmt::format("{} has the same corners as {}", name_of(*b.place), name_of(*a.place)));
+            tell(b.line(), "{} has the same corners as {}", name_of(*b.place), name_of(*a.place));
     });
 }
 
@@ -123,7 +118,7 @@ void gaps(const CheckedRoom& room, const Tell& tell) {
             text += fmt::format("; there are {} such gaps: bezel says how wide the frames of the "
                                 "displays are",
                                 count);
-        tell(room, gap.b->line(), text);
+        tell(gap.b->line(), "{}", text);
     }
 }
 
@@ -210,11 +205,10 @@ void walls_out_of_place(const CheckedRoom& room, const Tell& tell) {
     for (const auto& [wall, move, other] : moved_walls(all)) {
         const std::string by =
             fmt::format("{:+.2f} {:+.2f} {:+.2f}", move.x + 0.0f, move.y + 0.0f, move.z + 0.0f);
-        tell(room, wall->line(),
-             fmt::format("{}: {:.0f} mm from where it would meet {} and the other walls ({} m): "
-                         "are its corners measured from another origin?",
-                         name_of(*wall->place), 1000 * glm::length(move), name_of(*other->place),
-                         by));
+        tell(wall->line(),
+             "{}: {:.0f} mm from where it would meet {} and the other walls ({} m): are its "
+             "corners measured from another origin?",
+             name_of(*wall->place), 1000 * glm::length(move), name_of(*other->place), by);
     }
 }
 
@@ -231,10 +225,10 @@ void frames_in_gaps(const CheckedRoom& room, const Tell& tell) {
         if (told || gap >= kNeighbors || frames <= 3 * gap + kSlack || same_place(a, b))
             return;
         told = true;
-        tell(room, b.line(),
-             fmt::format("{}: its frame and that of {} are {:.0f} mm wide together, and the "
-                         "displays are {:.0f} mm apart: bezel is in meters",
-                         name_of(*b.place), name_of(*a.place), 1000 * frames, 1000 * gap));
+        tell(b.line(),
+             "{}: its frame and that of {} are {:.0f} mm wide together, and the displays are "
+             "{:.0f} mm apart: bezel is in meters",
+             name_of(*b.place), name_of(*a.place), 1000 * frames, 1000 * gap);
     });
 }
 
@@ -281,10 +275,9 @@ void mixed_stereo(const CheckedRoom& room, const Tell& tell) {
                               : stereo::upright(mode) == stereo::upright(other)
                                   ? "its eyes are exchanged"
                                   : "other glasses would see it";
-            tell(room, wall->window().line.number,
-                 fmt::format("{} is {}, and {} beside it {}: {}", name_of(*wall->place),
-                             stereo::name_of(wall->window().stereo), name_of(*(*usual)->place),
-                             stereo::name_of((*usual)->window().stereo), why));
+            tell(wall->window().line.number, "{} is {}, and {} beside it {}: {}",
+                 name_of(*wall->place), stereo::name_of(wall->window().stereo),
+                 name_of(*(*usual)->place), stereo::name_of((*usual)->window().stereo), why);
         }
     }
 }
@@ -309,10 +302,9 @@ void one_eye_alone(const CheckedRoom& room, const Tell& tell) {
                    (screen.carried_by_head || glm::length(apart) < 0.5f * std::min(size.x, size.y));
         });
         if (!paired)
-            tell(room, place.window.line.number,
-                 fmt::format("{} shows the {} eye alone, and no window shows the {} eye there",
-                             name_of(place), stereo::name_of(mode),
-                             stereo::name_of(stereo::inverted(mode))));
+            tell(place.window.line.number,
+                 "{} shows the {} eye alone, and no window shows the {} eye there", name_of(place),
+                 stereo::name_of(mode), stereo::name_of(stereo::inverted(mode)));
     }
 }
 
@@ -324,10 +316,9 @@ void exchanged_eyes(const CheckedRoom& room, const Tell& tell) {
     };
     const auto tell_if = [&](const PlacedViewport& left, const PlacedViewport& right) {
         if (says(left, "right", "left") && says(right, "left", "right"))
-            tell(room, std::max(left.window.line.number, right.window.line.number),
-                 fmt::format("{} shows the right eye and {} the left eye: their names say the "
-                             "reverse",
-                             name_of(right), name_of(left)));
+            tell(std::max(left.window.line.number, right.window.line.number),
+                 "{} shows the right eye and {} the left eye: their names say the reverse",
+                 name_of(right), name_of(left));
     };
     for (const PlacedViewport& left : room.viewports())
         for (const PlacedViewport& right : room.viewports())
@@ -367,9 +358,8 @@ void monitors_covered_twice(const CheckedRoom& room, const Tell& tell) {
     each_two_windows(room, [&](const stereo::Window& a, const stereo::Window& b) {
         if (a.fullscreen && b.fullscreen && b.monitor != stereo::kNextMonitor &&
             a.monitor == b.monitor && a.node == b.node)
-            tell(room, b.line.number,
-                 fmt::format("window {} covers monitor {}, as window {} does", b.name, b.monitor,
-                             a.name));
+            tell(b.line.number, "window {} covers monitor {}, as window {} does", b.name, b.monitor,
+                 a.name);
     });
 }
 
@@ -377,9 +367,8 @@ void covered_windows(const CheckedRoom& room, const Tell& tell) {
     const auto look = [&](const stereo::Window& a, const stereo::Window& b) {
         const glm::ivec2 shared = shared_pixels(a, b);
         if (shared.x > 0 && shared.y > 0)
-            tell(room, b.line.number,
-                 fmt::format("window {} covers {} x {} pixels of window {}", b.name, shared.x,
-                             shared.y, a.name));
+            tell(b.line.number, "window {} covers {} x {} pixels of window {}", b.name, shared.x,
+                 shared.y, a.name);
     };
     each_two_windows(room, look);
     if (const auto& console = room.config().panel.console)
@@ -389,7 +378,7 @@ void covered_windows(const CheckedRoom& room, const Tell& tell) {
 
 void nodes_without_windows(const CheckedRoom& room, const Tell& tell) {
     if (const std::string misfit = stereo::misfit(room.installation(), 1); !misfit.empty())
-        tell(room, 0, misfit);
+        tell(0, "{}", misfit);
 }
 
 constexpr Check kOfWalls[]{

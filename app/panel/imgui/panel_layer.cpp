@@ -16,11 +16,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <limits>
-#include <set>
 #include <string_view>
-#include <utility>
 #include <variant>
 
 namespace isochron::app {

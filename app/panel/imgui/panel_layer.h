@@ -14,8 +14,6 @@
 #include <glm/vec2.hpp>
 
 #include <deque>
-#include <filesystem>
-#include <functional>
 #include <map>
 #include <optional>
 #include <span>

@@ -15,9 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace isochron::app {
 namespace {

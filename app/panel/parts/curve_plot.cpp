@@ -11,7 +11,6 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -36,6 +35,24 @@ struct Axis {
         return half > 0 ? (value / 2 - low / 2) / half : 0.5;
     }
 };
+
+/// How far below the upper end of an axis its first number stands, which the unit leaves free.
+float begin_of_numbers(const std::string& unit) {
+    return unit.empty() ? 0.0f : ImGui::GetFontSize() + 2.0f;
+}
+
+/// Round numbers along an axis. Two at least have room for their words, where that can be.
+Ticks legible_ticks(const Axis& axis, int most, float height, float begin) {
+    constexpr float kLeastApart = 15.0f;
+    Ticks ticks = nice_ticks(axis.low, axis.high, most);
+    const auto is_legible = [&](double value) {
+        return height * static_cast<float>((axis.high - value) / (axis.high - axis.low)) >= begin;
+    };
+    while (std::ranges::count_if(ticks.values, is_legible) < 2 &&
+           static_cast<float>(++most) * kLeastApart <= height + kLeastApart)
+        ticks = nice_ticks(axis.low, axis.high, most);
+    return ticks;
+}
 
 /// The numbers that are plotted, and a little room; from 0 on where that is not far away.
 Axis number_axis(const PlottedCurves& curves, float height) {
@@ -72,7 +89,7 @@ Axis number_axis(const PlottedCurves& curves, float height) {
     axis.high += span > 0 ? 0.06 * span : std::max(std::abs(high) * 0.05, 0.5);
     if (high == 0 && low == 0)
         axis = {.low = 0, .high = 1};
-    axis.ticks = nice_ticks(axis.low, axis.high, most);
+    axis.ticks = legible_ticks(axis, most, height, begin_of_numbers(curves.unit));
     return axis;
 }
 
@@ -102,12 +119,12 @@ float widest_number(const Axis& axis) {
 void numbers_on(const Frame2D& frame, const std::string& unit) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float half = ImGui::GetFontSize() / 2;
-    const float unit_end = unit.empty() ? frame.low.y : frame.low.y + half + 2.0f;
+    const float begin = frame.low.y + begin_of_numbers(unit);
     for (const double value : frame.y.ticks.values) {
         const float y = std::round(frame.y_of(value));
         const std::string text = tick_text(value, frame.y.logarithmic ? value : frame.y.ticks.step);
         list.AddLine({frame.low.x, y}, {frame.high.x, y}, packed(Ink::line));
-        if (y - half < unit_end)
+        if (y < begin)
             continue;
         const float width = ImGui::CalcTextSize(text.c_str()).x;
         list.AddText({frame.low.x - width - 6.0f, y - half}, packed(Ink::dim), text.c_str());

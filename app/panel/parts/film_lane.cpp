@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -305,8 +304,10 @@ void film_lane(const PanelModel& model, const PanelLayout& layout, FilmLane& lan
             lane.preview.reset();
     }
     ImGui::SameLine();
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(length.c_str());
+    const ImVec2 words = ImGui::GetCursorScreenPos();
+    list.AddText({words.x, words.y + (kIconButton - ImGui::GetFontSize()) / 2}, packed(Ink::text),
+                 length.c_str());
+    ImGui::Dummy({ImGui::CalcTextSize(length.c_str()).x, kIconButton});
     ImGui::SameLine();
     if (icon_button("list of keys", Icon::menu, "the keys with their times"))
         ImGui::OpenPopup("keys");

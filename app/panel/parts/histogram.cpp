@@ -9,7 +9,6 @@
 #include "app/text.h"
 
 #include <glm/vec3.hpp>
-#include <imgui.h>
 #include <imgui_internal.h>
 
 #include <algorithm>

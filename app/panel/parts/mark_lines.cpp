@@ -9,13 +9,11 @@
 #include "app/scene/mark.h"
 #include "interaction/next_number.h"
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace isochron::app {
 namespace {

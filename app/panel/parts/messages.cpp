@@ -4,6 +4,7 @@
 #include "app/panel/panel_statistics.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/icons.h"
+#include "app/panel/parts/story_card.h"
 #include "app/panel/parts/theme.h"
 #include "app/panel/parts/time_track.h"
 
@@ -113,9 +114,13 @@ glm::vec2 statistics_window(const PanelModel& model, const PanelBox& picture, fl
     return {corner.x + size.x, corner.y + size.y};
 }
 
-void gap_window(const PanelModel& model, const PanelBox& picture) {
+void gap_window(const PanelModel& model, const PanelBox& picture, float lowest) {
+    constexpr float kRoom = 150.0f; // for messages above it, too
     const std::string held = held_text(model);
-    if (held.empty())
+    if (held.empty() || picture.high.y - lowest < kRoom)
+        return;
+    const float half = ImGui::CalcTextSize(held.c_str()).x / 2 + 2 * kMargin;
+    if (story_card_end(model, picture) > (picture.low.x + picture.high.x) / 2 - half)
         return;
     ImGui::SetNextWindowPos({(picture.low.x + picture.high.x) / 2, picture.high.y - kMargin},
                             ImGuiCond_Always, {0.5f, 1.0f});

@@ -33,8 +33,10 @@ glm::vec2 statistics_window(const PanelModel& model, const PanelBox& picture, fl
 float statistics_end(const PanelBox& picture);
 
 /// At the lower edge of the picture, between its scale bar and its legend: between which steps the
-/// moment lies, or that a gap is held.
-void gap_window(const PanelModel& model, const PanelBox& picture);
+/// moment lies, or that a gap is held. A low picture has no room for it, nor one whose story's card
+/// reaches so far; then the field of the step says it.
+/// @param lowest lower end of what lies over the top of the picture
+void gap_window(const PanelModel& model, const PanelBox& picture, float lowest);
 
 /// What is said at the top of the picture.
 struct Said {

@@ -6,8 +6,6 @@
 
 #include <glm/vec2.hpp>
 
-#include <array>
-
 namespace isochron::app {
 
 /// A rectangle in panel pixels from the top left.
@@ -42,9 +40,14 @@ inline constexpr glm::vec2 kChipEnd{142.0f, 38.0f}, kCubeEnd{100.0f, 98.0f};
 /// The rows between the picture and the bar of the time that are open.
 struct PanelRows {
     bool film = false, curves = false;
+    bool told = false; ///< the card of a story needs the picture, so that a low one has no drawer
 };
 /// Those of a session.
 PanelRows rows_of(const interaction::Settings& settings);
+
+/// Whether the part that is left free is worth fitting the picture into it: no less than half of the
+/// width and a quarter of the height. Else the picture lies under the whole panel.
+bool has_room_for_picture(const PanelBox& free, glm::vec2 size);
 
 /// The layout of a panel. @param size of the window or the panel in the room, panel pixels
 PanelLayout layout_in(PanelPlace place, glm::vec2 size, const PanelRows& rows = {});

@@ -4,8 +4,6 @@
 #include "app/panel/panel_model.h"
 #include "interaction/commands.h"
 
-#include <glm/vec3.hpp>
-
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -23,12 +23,7 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
-#include <string>
-#include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -75,9 +70,12 @@ void data_section(const PanelModel& model, PanelPages& pages, Commands& commands
         tip("values that are missing (NaN), in all steps: a surface has a hole there");
     }
     const glm::dvec3 size = physical_size(info.grid);
-    text_row("size", fmt::format("{:.5g} x {:.5g} x {:.5g}{}", size.x, size.y, size.z,
-                                 with_space(info.length_unit)));
+    text_row("size", lengths_text({size.x, size.y, size.z}, info.length_unit));
     text_row("grid", grid_words(info));
+    if (const std::string gaps = gaps_words(model); !gaps.empty()) {
+        text_row("gaps", gaps);
+        tip(gaps_in_words(model).c_str());
+    }
     model_row(pages);
     if (model.sessions.empty())
         return;

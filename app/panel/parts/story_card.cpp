@@ -16,9 +16,12 @@ namespace {
 using interaction::Commands;
 
 constexpr float kWideCard = 360.0f,
-                kNarrowCard = 250.0f; ///< its width lies between them
-constexpr float kOverAxes = 118.0f;   ///< the axes and the scale bar stay free
-constexpr float kCardShare = 0.4f;    ///< share of the picture's height that a text has at most
+                kNarrowCard = 250.0f;          ///< its width lies between them
+constexpr float kOverAxes = 118.0f;            ///< the axes and the scale bar stay free
+constexpr float kEdge = 12.0f, kAtEdge = 4.0f; ///< beside and below the card
+constexpr float kFrame = 76.0f;                ///< height of the card without its text
+constexpr float kFewLines = 60.0f; ///< height of a text; with less, the card stands at the edge
+constexpr float kCardShare = 0.4f; ///< share of the picture's height that a text has at most
 
 /// @param highest that the text may be, panel pixels
 void text_and_buttons(const PanelModel& model, float highest, Commands& commands) {
@@ -59,23 +62,37 @@ void line_to_place(const ImVec2& low, const ImVec2& high, const ImVec2& place) {
     list.AddLine(from, place, packed(Ink::accent), 2.0f);
 }
 
+/// The card's width.
+float width_in(const PanelBox& picture) {
+    return std::min(std::clamp(0.45f * picture.size().x, kNarrowCard, kWideCard),
+                    picture.size().x - 2 * kEdge);
+}
+
 } // namespace
 
-bool story_card(const PanelModel& model, const PanelBox& picture, Commands& commands) {
+float story_card_end(const PanelModel& model, const PanelBox& picture) {
+    return interaction::told_key(model.asked) ? picture.low.x + kEdge + width_in(picture)
+                                              : picture.low.x;
+}
+
+bool story_card(const PanelModel& model, const PanelBox& picture, float lowest,
+                Commands& commands) {
     if (!interaction::told_key(model.asked))
         return false;
-    constexpr float kEdge = 12.0f;
-    const float bottom = picture.high.y - std::min(kOverAxes, 0.16f * picture.size().y);
+    // A low picture has no room for the axes below the card.
+    const float above_axes = picture.high.y - std::min(kOverAxes, 0.16f * picture.size().y);
+    const float bottom =
+        above_axes - lowest < kFrame + kFewLines ? picture.high.y - kAtEdge : above_axes;
+    const float highest =
+        std::min(kCardShare * picture.size().y, bottom - lowest - kAtEdge - kFrame);
     ImGui::SetNextWindowPos({picture.low.x + kEdge, bottom}, ImGuiCond_Always, {0.0f, 1.0f});
-    ImGui::SetNextWindowSize({std::min(std::clamp(0.45f * picture.size().x, kNarrowCard, kWideCard),
-                                       picture.size().x - 2 * kEdge),
-                              0.0f});
+    ImGui::SetNextWindowSize({width_in(picture), 0.0f});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(Ink::bar));
     ImGui::Begin("###story", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize |
                      ImGuiWindowFlags_NoSavedSettings);
-    text_and_buttons(model, kCardShare * picture.size().y, commands);
+    text_and_buttons(model, std::max(highest, ImGui::GetTextLineHeight()), commands);
     const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
     ImGui::End();
     ImGui::PopStyleColor();

@@ -20,7 +20,6 @@
 #include <limits>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace isochron::app {
 namespace {

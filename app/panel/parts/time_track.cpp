@@ -130,6 +130,23 @@ std::string gap_text(std::uint32_t step) {
     return fmt::format("held: a gap between steps {} and {}", step + 1, step + 2);
 }
 
+bool names_miss_after(const PanelModel& model, std::uint32_t step) {
+    return std::ranges::binary_search(model.info.missing_after, step);
+}
+
+/// Where steps are held, the track is open between the two of a gap.
+void gaps_on(const Track& track, const PanelModel& model) {
+    if (model.asked.blends())
+        return;
+    const float open = std::min(2.0f, track.width() / 4); // pixels to both sides
+    for (const std::uint32_t step : model.gaps)
+        if (step + 1 < track.steps) {
+            const float x = track.left_of(step + 1);
+            ImGui::GetWindowDrawList()->AddRectFilled({x - open, track.low.y},
+                                                      {x + open, track.high.y}, packed(Ink::bar));
+        }
+}
+
 /// Where steps are blended: the track is open at gaps, and has a tick at every step, or at every so
 /// many of them if these lie close. Those that the shown moment lies between have long ticks.
 void true_steps_on(const Track& track, const PanelModel& model) {
@@ -291,6 +308,11 @@ void tip_of_track(const Track& track, const PanelModel& model, std::uint32_t poi
     const index::Instant at = track.instant_at(ImGui::GetIO().MousePos.x, 0.0f);
     if (is_gap(model, at.step))
         words += "\n" + gap_text(at.step);
+    else if (std::ranges::binary_search(model.gaps, pointed))
+        words += fmt::format("\na gap behind it: {}",
+                             names_miss_after(model, pointed)
+                                 ? "numbers are missing in the names of the files"
+                                 : "the next one is more than three times as far away as usual");
     ImGui::SetTooltip("%s", words.c_str());
 }
 
@@ -346,6 +368,26 @@ std::string time_of(const PanelModel& model, index::Instant at) {
     return index::instant_text(model.info.times, at, model.info.time_unit);
 }
 
+std::string gaps_words(const PanelModel& model) {
+    constexpr std::size_t kNamed = 3;
+    std::vector<std::uint32_t> named;
+    for (const std::uint32_t step : model.gaps)
+        if (named.size() < kNamed)
+            named.push_back(step + 1);
+    const std::size_t count = model.gaps.size();
+    return count == 0 ? ""
+                      : fmt::format("{}: after step{} {}{}", count, count == 1 ? "" : "s",
+                                    fmt::join(named, ", "), count > kNamed ? " ..." : "");
+}
+
+std::string gaps_in_words(const PanelModel& model) {
+    const bool names = std::ranges::any_of(
+        model.gaps, [&](std::uint32_t step) { return names_miss_after(model, step); });
+    return fmt::format("{}:\nthe step before a gap stays until the next one",
+                       names ? "numbers are missing in the names of the files"
+                             : "some steps are more than three times as far apart as usual");
+}
+
 std::string held_text(const PanelModel& model) {
     const index::Instant now = model.asked.shown_instant();
     if (now.between())
@@ -382,6 +424,7 @@ void time_track(const PanelModel& model, Commands& commands) {
         tip_of_track(track, model, pointed);
     ImGui::GetWindowDrawList()->AddRectFilled(track.low, track.high, packed(Ink::control), 3.0f);
     steps_at_hand(track, model);
+    gaps_on(track, model);
     true_steps_on(track, model);
     range_on(track, model.asked.play_range);
     flags_on(track, model);

@@ -113,7 +113,7 @@ bool has_room_for(const char* card, const PanelBox& picture, float lowest) {
 }
 
 bool room_card(const PanelBox& picture) {
-    begin_card(kRoomCard, picture, 560.0f, picture.high.y - kAboveScaleBar, 1.0f);
+    begin_card(kRoomCard, picture, 620.0f, picture.high.y - kAboveScaleBar, 1.0f);
     constexpr std::array<const char*, 4> kLines{
         "You look at the room from outside; each wall shows what its viewer's left eye sees.",
         "Hold C: drag to circle round the room, middle drag to move it, wheel to come nearer.",

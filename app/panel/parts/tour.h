@@ -4,14 +4,12 @@
 
 #include "app/panel/panel_model.h"
 #include "app/panel/parts/panel_layout.h"
-#include "interaction/commands.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace isochron::app {
 

@@ -8,7 +8,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <imgui.h>
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,7 @@
 // The state in the link: settings alone, no paths but the name of the file beside the page.
 
 import { MAP_NAMES } from "./view/colors";
+import { areShown, MOST_GHOSTS, WIDEST_GHOSTS, type GhostSettings } from "./view/ghosts";
 
 /** A surface of the array, and how it looks. */
 export interface Surface {
@@ -12,6 +13,7 @@ export interface Surface {
 /** As many as the native program shows. */
 export const MOST_SURFACES = 8;
 export const MOST_SLICES = 3;
+export const MOST_CUTS = 6;
 
 export interface Linked {
   file?: string;
@@ -28,9 +30,12 @@ export interface Linked {
   map?: string;
   /** The ends of the color map. */
   range?: number[];
+  /** Of links of earlier versions: a clip plane across an axis. */
   clip?: [axis: number, share: number];
-  /** A clip plane in any direction: a point on it, and its normal towards what is cut away, physical space. */
-  plane?: number[];
+  /** Clip planes: of each a point, and its normal towards what is cut away, physical space. */
+  planes?: number[][];
+  /** Outside this box all is cut away: its low and its high corner as indices of vertices. */
+  box?: number[];
   /** Slices: of each a point, and its normal, physical space. */
   slices?: number[][];
   /** The array whose values they show; absent: the surfaces'. */
@@ -41,6 +46,7 @@ export interface Linked {
   isolines?: number;
   /** 1: without the surfaces. */
   alone?: number;
+  ghosts?: GhostSettings;
   /** What is up in the picture; absent: the data's z. */
   up?: number[];
   /** So many 65536ths of the way to the next step. */
@@ -54,6 +60,15 @@ const numberOf = (text: string | null): number | undefined => {
   const value = text === null || text === "" ? NaN : Number(text);
   return Number.isFinite(value) ? value : undefined;
 };
+
+/** A list of planes: of each a point and its normal. */
+function planesOf(text: string | null, most: number): number[][] | undefined {
+  const planes = (text ?? "")
+    .split(",")
+    .map((word) => word.split("/").map((number) => numberOf(number) ?? NaN))
+    .filter((plane) => plane.length === 6 && plane.every(Number.isFinite) && Math.hypot(...plane.slice(3)) > 0);
+  return planes.length ? planes.slice(0, most) : undefined;
+}
 
 /** A name beside the page: no folder, no other server. */
 export const isPlain = (name: string): boolean => /^[^/\\:?#]+$/.test(name) && !name.startsWith(".");
@@ -85,19 +100,24 @@ export function linked(hash: string): Linked {
     const map = words.get(name);
     if (map && (MAP_NAMES as string[]).includes(map)) state[name] = map;
   }
-  const slices = (words.get("slices") ?? "")
-    .split(",")
-    .map((word) => word.split("/").map((number) => numberOf(number) ?? NaN))
-    .filter((plane) => plane.length === 6 && plane.every(Number.isFinite) && Math.hypot(...plane.slice(3)) > 0);
-  if (slices.length) state.slices = slices.slice(0, MOST_SLICES);
+  // Earlier versions wrote one plane, as `plane`.
+  const planes = planesOf(words.get("planes"), MOST_CUTS) ?? planesOf(words.get("plane")?.replaceAll(",", "/") ?? null, 1);
+  if (planes) state.planes = planes;
+  // earlier/later/every/opacity
+  const [earlier, later, every, share] = (words.get("ghosts") ?? "").split("/").map((word) => numberOf(word) ?? NaN) as [number, number?, number?, number?];
+  const isCount = (n: number | undefined, low: number, high: number): n is number => Number.isInteger(n) && n! >= low && n! <= high;
+  if (isCount(earlier, 0, MOST_GHOSTS) && isCount(later, 0, MOST_GHOSTS) && isCount(every, 1, WIDEST_GHOSTS) && share! <= 1 && areShown({ earlier, later, every, opacity: share! }))
+    state.ghosts = { earlier, later, every, opacity: share! };
+  const slices = planesOf(words.get("slices"), MOST_SLICES);
+  if (slices) state.slices = slices;
   const clip = (words.get("clip") ?? "").split(",").map(Number);
   if (clip.length === 2 && [0, 1, 2].includes(clip[0]!) && clip[1]! >= 0 && clip[1]! <= 1) state.clip = clip as [number, number];
-  for (const [name, count] of [["view", 6], ["up", 3], ["plane", 6], ["range", 2], ["slicerange", 2]] as const) {
+  for (const [name, count] of [["view", 6], ["up", 3], ["box", 6], ["range", 2], ["slicerange", 2]] as const) {
     const numbers = (words.get(name) ?? "").split(",").map(Number);
     if (numbers.length === count && numbers.every(Number.isFinite)) state[name] = numbers;
   }
-  for (const direction of [state.up, state.plane?.slice(3)])
-    if (direction && !(Math.hypot(...direction) > 0)) delete state[direction === state.up ? "up" : "plane"];
+  if (state.up && !(Math.hypot(...state.up) > 0)) delete state.up;
+  if (state.box?.slice(0, 3).some((low, axis) => !(low < state.box![axis + 3]!))) delete state.box;
   for (const name of ["range", "slicerange"] as const) if (!(state[name]?.[0]! < state[name]?.[1]!)) delete state[name];
   for (const name of ["color", "background"] as const) {
     const value = words.get(name);
@@ -108,9 +128,14 @@ export function linked(hash: string): Linked {
 
 export function linkOf(state: Linked): string {
   const words = new URLSearchParams();
-  const { surfaces, slices, ...others } = state;
+  const { surfaces, ghosts, ...others } = state;
+  if (ghosts) words.set("ghosts", [ghosts.earlier, ghosts.later, ghosts.every, +ghosts.opacity.toPrecision(3)].join("/"));
   if (surfaces) words.set("surfaces", surfaces.map(({ isovalue, color, opacity }) => `${isovalue}/${color.slice(1)}/${opacity}`).join(","));
-  if (slices) words.set("slices", slices.map((plane) => plane.map((n) => +n.toPrecision(9)).join("/")).join(","));
+  for (const name of ["slices", "planes"] as const) {
+    const planes = others[name];
+    delete others[name];
+    if (planes) words.set(name, planes.map((plane) => plane.map((n) => +n.toPrecision(9)).join("/")).join(","));
+  }
   for (const [name, value] of Object.entries(others) as [string, unknown][])
     if (value !== undefined) words.set(name, Array.isArray(value) ? value.map((n: number) => +n.toPrecision(6)).join(",") : String(value));
   return `#${words.toString()}`;

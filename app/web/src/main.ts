@@ -1,14 +1,20 @@
 // The page: opens the index beside it, and shows the surface that the controls and the link ask for.
 import "./style.css";
 import { Vector3 } from "three";
-import { isPlain, linked, linkOf, MOST_SLICES, MOST_SURFACES, type Linked, type Surface } from "./link";
+import { isPlain, linked, linkOf, MOST_CUTS, MOST_SLICES, MOST_SURFACES, type Linked, type Surface } from "./link";
 import type { Asked, Found, FromWorker, SliceValues, ToWorker } from "./messages";
 import type { Info } from "./reader/index_file";
 import { misfit, storyAt, type Key } from "./story/story";
 import { Teller } from "./story/teller";
 import { sightOf } from "./story/way";
+import { BoxFields } from "./view/box_fields";
 import { colorsOf, drawLegend, MAP_NAMES, type MapName } from "./view/colors";
+import { momentText } from "./view/dates";
+import { GhostPanel } from "./view/ghost_panel";
+import { areShown, ghostColor, ghostMoments, Ghosts, NO_GHOSTS } from "./view/ghosts";
 import { Histogram } from "./view/histogram";
+import { PlaneList } from "./view/plane_list";
+import { acrossAxis, distanceAt, nextAxis, type Plane } from "./view/planes";
 import { Scene } from "./view/scene";
 
 const LOOK = 2000; // milliseconds between two looks at a file that grows
@@ -43,11 +49,6 @@ const background = part<HTMLInputElement>("background");
 const between = part<HTMLInputElement>("between");
 const colorBy = part<HTMLSelectElement>("color-by");
 const map = part<HTMLSelectElement>("map");
-const clipAxis = part<HTMLSelectElement>("clip-axis");
-const clipShare = part<HTMLInputElement>("clip-share");
-const slice = part<HTMLSelectElement>("slice");
-const sliceNormal = part<HTMLInputElement>("slice-normal");
-const slicePlace = part<HTMLInputElement>("slice-place");
 const sliceOf = part<HTMLSelectElement>("slice-of");
 const sliceMap = part<HTMLSelectElement>("slice-map");
 const isolines = part<HTMLInputElement>("isolines");
@@ -74,13 +75,10 @@ const say = (words: ToWorker) => worker.postMessage(words);
 let state: Linked = linked(location.hash);
 let infos: Info[] = [];
 let levels = 1;
-let asked: Asked = { array: 0, step: 0, fraction: 0, isovalues: [0], colors: null, slices: [], sliceOf: 0, alone: false };
+let asked: Asked = { array: 0, step: 0, fraction: 0, isovalues: [0], colors: null, slices: [], sliceOf: 0, alone: false, ghosts: [], ghostTriangles: 0 };
 let range: number[] | null = null; // the ends of the color map; null: all values
-let plane: number[] | null = null; // of a clip plane that a story or a link has: a point on it, and its normal
 let story: Key[] | null = null;
 let badStory = ""; // why there is none
-let slices: number[][] = []; // of each a point, and its unit normal, physical space
-let pickedSlice = 0;
 let sliceRange: number[] | null = null; // the ends of their color map; null: all values
 let surfaces: Surface[] = [{ isovalue: 0, color: COLORS[0]!, opacity: 1 }];
 let picked = 0;
@@ -95,6 +93,11 @@ let later = 0; // the timer of the address
 
 const info = (): Info => infos[asked.array]!;
 const words = (value: number): string => String(+value.toPrecision(6));
+const ghosts = new Ghosts();
+const ghostPanel = new GhostPanel(ghosts, part<HTMLInputElement>("ghosts"), part("ghost-parts"), () => ask(false));
+const box = new BoxFields(part<HTMLInputElement>("boxed"), part("box-parts"), info, clip);
+const slices = new PlaneList("slice", MOST_SLICES, info, ask);
+const clips = new PlaneList("clip", MOST_CUTS, info, clip);
 
 /** The first isovalue: above which about a fiftieth of the values lie. */
 function firstIsovalue(of: Info): number {
@@ -114,10 +117,15 @@ function ask(coarse: boolean): void {
   asked = {
     ...asked,
     isovalues: surfaces.map((each) => each.isovalue),
-    slices: slices.map((each) => each.map((n, i) => n - (origin[i] ?? 0))),
+    slices: slices.planes.map((each) => each.map((n, i) => n - (origin[i] ?? 0))),
     sliceOf: sliceOf.value === "" ? asked.array : Number(sliceOf.value),
     alone: alone.checked,
   };
+  // While time plays between steps, ghosts of whole ones serve longer than it takes to make them.
+  const now = { step: asked.step, fraction: playing ? 0 : asked.fraction };
+  const hidden = asked.alone && asked.slices.length > 0;
+  const missing = ghosts.wish(hidden ? [] : ghostMoments(ghosts.settings, now, playRange(), info()), asked);
+  asked = { ...asked, ghosts: coarse ? [] : missing, ghostTriangles: ghosts.most };
   const finest = coarse ? Math.min(levels - 1, info().vertices.some((n) => n > 160) ? 2 : info().vertices.some((n) => n > 80) ? 1 : 0) : 0;
   const wanted: number[] = [];
   for (let level = levels - 1; level >= finest; --level) {
@@ -127,21 +135,37 @@ function ask(coarse: boolean): void {
   say({ kind: "find", number: ++number, asked, levels: wanted });
   chip.textContent = "searching …";
   listSurfaces();
-  listSlices();
-  time.step = between.checked ? "any" : "1";
-  time.value = String(asked.step + asked.fraction / FRACTIONS);
-  moment.textContent = momentWords();
+  slices.show();
+  sayMoment();
   if (coarse) keepSoon();
   else keep();
 }
 
+/** The first and last step that plays. */
+function playRange(): [number, number] {
+  const end = info().times.length - 1;
+  const within = (text: string, otherwise: number) => (/^\d+$/.test(text) ? Math.min(end, Number(text)) : otherwise);
+  return [within(from.value, 0), within(to.value, end)];
+}
+
 function momentWords(): string {
+  const { times } = info();
+  const steps = asked.fraction ? `between steps ${asked.step + 1} and ${asked.step + 2}` : `step ${asked.step + 1}`;
+  return `${steps} of ${times.length}: ${dateOf(asked.step, asked.fraction)}`;
+}
+/** When a moment is: a date of the data's calendar, or a time. */
+function dateOf(step: number, fraction = 0): string {
   const { times, timeUnit } = info();
-  const [first, second] = [times[asked.step]!, times[asked.step + 1] ?? 0];
-  const share = asked.fraction / FRACTIONS;
-  return asked.fraction
-    ? `between steps ${asked.step + 1} and ${asked.step + 2} of ${times.length}: ${words(first + share * (second - first))} ${timeUnit}`
-    : `step ${asked.step + 1} of ${times.length}: ${words(first)} ${timeUnit}`;
+  return momentText(times, step, fraction, timeUnit);
+}
+/** Says when moments are: in the time bar, for screen readers, in the browser's tab. */
+function sayMoment(): void {
+  time.step = between.checked ? "any" : "1";
+  time.value = String(asked.step + asked.fraction / FRACTIONS);
+  moment.textContent = momentWords();
+  time.setAttribute("aria-valuetext", moment.textContent);
+  for (const end of [from, to]) end.title = dateOf(Math.min(Math.max(0, Math.floor(Number(end.value)) || 0), info().times.length - 1));
+  document.title = `${state.file}, ${dateOf(asked.step, asked.fraction)} - Isochron`;
 }
 
 /** Shows the list of surfaces, and the values of the one that is changed. */
@@ -155,69 +179,6 @@ function listSurfaces(): void {
   if (document.activeElement !== isovalue) isovalue.value = words(own.isovalue);
   color.value = own.color;
   opacity.value = String(own.opacity);
-}
-
-/** The lowest and highest distance of the data's box along a normal, and how far a cell reaches there. */
-function reachAlong(normal: readonly number[]): { low: number; high: number; cell: number } {
-  const { vertices, spacing, direction, origin } = info();
-  let low = origin.reduce((sum, n, i) => sum + n * normal[i]!, 0);
-  let high = low;
-  let cell = 0;
-  direction.forEach((column, axis) => {
-    const a_cell = column.reduce((sum, n, i) => sum + n * normal[i]!, 0) * spacing[axis]!;
-    const whole = a_cell * (vertices[axis]! - 1);
-    if (whole < 0) low += whole;
-    else high += whole;
-    cell = Math.max(cell, Math.abs(a_cell));
-  });
-  return { low, high, cell };
-}
-const along = (each: readonly number[]): number => each[0]! * each[3]! + each[1]! * each[4]! + each[2]! * each[5]!;
-
-/** Puts the slice that is picked elsewhere along its normal. */
-function placeSlice(at: number): void {
-  const each = slices[pickedSlice];
-  if (!each) return;
-  const normal = each.slice(3);
-  const { low, high } = reachAlong(normal);
-  const by = Math.min(high, Math.max(low, at)) - along(each);
-  slices[pickedSlice] = [...each.slice(0, 3).map((n, i) => n + by * normal[i]!), ...normal];
-}
-/** A slice through the middle of the data. @return null: that is no direction */
-function sliceAcross(normal: readonly number[]): number[] | null {
-  const length = Math.hypot(...normal);
-  if (normal.length !== 3 || !(length > 0) || !Number.isFinite(length)) return null;
-  const { vertices, spacing, direction, origin } = info();
-  const middle = origin.map((n, i) => n + direction.reduce((sum, column, axis) => sum + (column[i]! * spacing[axis]! * (vertices[axis]! - 1)) / 2, 0));
-  return [...middle, ...normal.map((n) => n / length)];
-}
-/** Adds a slice across the axis after that of the one that is picked. */
-function addSlice(): void {
-  const { direction } = info();
-  const normal = slices[pickedSlice]?.slice(3);
-  const before = normal ? direction.findIndex((column) => Math.abs(column.reduce((sum, n, i) => sum + n * normal[i]!, 0)) > 0.999) : 1;
-  const axis = (before + 1) % 3;
-  // At right angles to the axis, also where axes are not at right angles to each other.
-  const [a, b] = [direction[(axis + 1) % 3]!, direction[(axis + 2) % 3]!];
-  const added = sliceAcross([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]);
-  if (!added || slices.length === MOST_SLICES) return;
-  slices.push(added);
-  pickedSlice = slices.length - 1;
-  ask(false);
-}
-
-/** Shows the list of slices, and where the one is that is moved. */
-function listSlices(): void {
-  slice.replaceChildren(...(slices.length ? slices.map((_, i) => new Option(String(i + 1), String(i))) : [new Option("none", "")]));
-  slice.value = slices.length ? String(pickedSlice) : "";
-  part<HTMLButtonElement>("slice-remove").disabled = slices.length === 0;
-  part<HTMLButtonElement>("slice-add").disabled = slices.length === MOST_SLICES;
-  part("slice-parts").hidden = slices.length === 0;
-  const each = slices[pickedSlice];
-  if (!each) return;
-  if (document.activeElement !== sliceNormal) sliceNormal.value = each.slice(3).map((n) => +n.toPrecision(4) + 0).join(", ");
-  const { low, high } = reachAlong(each.slice(3));
-  if (document.activeElement !== slicePlace) slicePlace.value = String((along(each) - low) / (high - low));
 }
 
 /** Changes the surface that is picked. */
@@ -235,6 +196,15 @@ function drawScale(): void {
   part("scale-words").textContent = `${words(length)} ${info().lengthUnit}`;
 }
 
+/** Sets what is behind the data, and the ink of what is written on it. */
+function backdrop(color: string): void {
+  background.value = color;
+  scene.background(color);
+  const light = [1, 3, 5].reduce((sum, at, i) => sum + parseInt(color.slice(at, at + 2), 16) * [0.3, 0.59, 0.11][i]!, 0) > 128;
+  document.body.classList.toggle("on-light", light);
+  document.body.classList.toggle("on-dark", !light);
+}
+
 /** Puts the state into the address when nothing has moved for a moment: browsers count how often. */
 function keepSoon(): void {
   clearTimeout(later);
@@ -249,13 +219,15 @@ function keep(): void {
     ...(surfaces.length > 1 ? { surfaces, picked } : { color: surfaces[0]!.color, opacity: surfaces[0]!.opacity }),
     ...(scene.up ? { up: scene.up } : {}),
     ...(asked.colors === null ? {} : { colors: asked.colors, map: map.value, ...(range ? { range } : {}) }),
-    ...(slices.length
+    ...(slices.planes.length
       ? {
-          slices, slicemap: sliceMap.value, ...(sliceOf.value === "" ? {} : { sliceof: Number(sliceOf.value) }), ...(sliceRange ? { slicerange: sliceRange } : {}),
+          slices: slices.planes, slicemap: sliceMap.value, ...(sliceOf.value === "" ? {} : { sliceof: Number(sliceOf.value) }), ...(sliceRange ? { slicerange: sliceRange } : {}),
           ...(isolines.checked ? {} : { isolines: 0 }), ...(alone.checked ? { alone: 1 } : {}),
         }
       : {}),
-    ...(clipAxis.value === "plane" ? { plane: plane! } : clipAxis.value === "" ? {} : { clip: [Number(clipAxis.value), Number(clipShare.value)] as [number, number] }),
+    ...(areShown(ghosts.settings) ? { ghosts: ghosts.settings } : {}),
+    ...(clips.planes.length ? { planes: clips.planes } : {}),
+    ...(box.box ? { box: box.box } : {}),
     ...(story && state.story ? { story: state.story, told: teller.told } : {}),
   };
   history.replaceState(null, "", linkOf(state));
@@ -298,15 +270,27 @@ function paint(): void {
   }
   scene.look(surfaces);
   paintSlices();
+  paintGhosts();
   if (last) scene.show(last.found, last.found.map(({ values }) => (of && values ? colorsOf(name, values, low, high) : null)));
 }
 
+/** Shows the ghosts that are at hand, beside what is shown. */
+function paintGhosts(): void {
+  const { settings } = ghosts;
+  const now = last?.asked ?? asked;
+  ghostPanel.show(info().times.length > 1, surfaces[picked]!.color, now, ({ step, fraction }) => dateOf(step, fraction));
+  scene.ghosts(
+    ghosts.shown.flatMap((ghost) =>
+      ghost.found.flatMap((mesh, i) => (surfaces[i] && surfaces[i].opacity > 0 ? [{ mesh, color: ghostColor(surfaces[i].color, ghost, now, settings), opacity: settings.opacity }] : [])),
+    ),
+  );
+}
+
+/** Shows what cuts the surfaces. */
 function clip(): void {
-  const { value } = clipAxis;
-  clipShare.hidden = value === "" || value === "plane";
-  part("clip-plane").hidden = plane === null;
-  const cut = value === "plane" ? { point: plane!.slice(0, 3), normal: plane!.slice(3) } : value === "" ? null : { axis: Number(value), share: Number(clipShare.value) };
-  scene.clip(info(), cut);
+  clips.show();
+  box.show();
+  scene.clip(info(), clips.planes, box.box);
   keepSoon();
 }
 
@@ -327,20 +311,30 @@ function showKey(key: Key): void {
     const colors = by !== "value" ? -1 : of === "" ? first : arrayCalled(of);
     asked = { ...asked, colors: colors < 0 ? null : colors };
     colorBy.value = colors < 0 ? "" : String(colors);
-    map.value = (MAP_NAMES as string[]).includes(name) ? name : "viridis";
+    map.value = mapCalled(name);
     range = key.coloring.range ?? null;
   }
   if (key.background !== undefined) {
-    background.value = BACKGROUNDS[key.background] ?? BACKGROUNDS["dark"]!;
-    scene.background(background.value);
+    backdrop(BACKGROUNDS[key.background] ?? BACKGROUNDS["dark"]!);
   }
-  if (key.clip) {
-    plane = key.clip.shown ? [...key.clip.point, ...key.clip.normal] : null;
-    clipAxis.value = plane ? "plane" : "";
-    clip();
+  if (key.slices) {
+    const { planes, picked: moved, coloring, isolines: lines, alone: hides } = key.slices;
+    slices.set(planes, moved);
+    [isolines.checked, alone.checked] = [lines, hides];
+    if (coloring) {
+      sliceOf.value = coloring.array === "" ? "" : String(arrayCalled(coloring.array));
+      sliceMap.value = mapCalled(coloring.map);
+      sliceRange = coloring.range ?? null;
+    }
   }
+  if (key.ghosts) ghosts.settings = key.ghosts;
+  if (key.clip) clips.set(key.clip.length ? [key.clip] : []);
+  if (key.box) box.set(key.box.length ? key.box : null);
+  clip();
   ask(false);
 }
+/** A map that the page has. */
+const mapCalled = (name: string): string => ((MAP_NAMES as string[]).includes(name) ? name : "viridis");
 /** The number of an array; empty: the first. */
 const arrayCalled = (name: string): number => (name === "" ? 0 : infos.findIndex((each) => each.array === name));
 
@@ -373,6 +367,7 @@ function grown(found: Info[]): void {
   const wasLast = asked.step === info().times.length - 1;
   const wholeRange = to.value === String(info().times.length - 1);
   infos = found;
+  ghosts.forget();
   asked.array = Math.min(asked.array, infos.length - 1);
   const steps = info().times.length;
   time.max = String(steps - 1);
@@ -381,6 +376,14 @@ function grown(found: Info[]): void {
   asked.step = wasLast ? steps - 1 : Math.min(asked.step, steps - 1);
   histogram.show(info());
   ask(false);
+}
+
+const ofUnit = (plane: Plane): Plane => [...plane.slice(0, 3), ...plane.slice(3).map((n) => n / Math.hypot(...plane.slice(3)))];
+/** The plane of a link of earlier versions, at a share of an axis's vertices. */
+function acrossAt(axis: number, share: number): Plane {
+  const { direction, origin, vertices } = info();
+  const far = distanceAt(info(), axis, share * (vertices[axis]! - 1));
+  return [...origin.map((n, i) => n + far * direction[axis]![i]!), ...direction[axis]!];
 }
 
 function opened(found: Info[], count: number): void {
@@ -403,8 +406,11 @@ function opened(found: Info[], count: number): void {
   colorBy.value = asked.colors === null ? "" : String(asked.colors);
   if (state.map) map.value = state.map;
   range = state.range ?? null;
-  plane = state.plane ?? null;
-  slices = (state.slices ?? []).map((each) => [...each.slice(0, 3), ...each.slice(3).map((n) => n / Math.hypot(...each.slice(3)))]);
+  slices.set((state.slices ?? []).map(ofUnit));
+  clips.set((state.planes ?? []).map(ofUnit));
+  ghosts.settings = state.ghosts ?? NO_GHOSTS;
+  if (state.clip) clips.set([...clips.planes, acrossAt(...state.clip)]);
+  box.set(state.box ?? null);
   sliceRange = state.slicerange ?? null;
   sliceOf.replaceChildren(new Option("as the surfaces", ""), ...infos.map((each, i) => new Option(each.array || "values", String(i))));
   sliceOf.value = state.sliceof !== undefined && state.sliceof < infos.length ? String(state.sliceof) : "";
@@ -412,17 +418,10 @@ function opened(found: Info[], count: number): void {
   if (state.slicemap) sliceMap.value = state.slicemap;
   isolines.checked = state.isolines !== 0;
   alone.checked = state.alone === 1;
-  const cut = state.clip;
   scene.frame(info());
   const place = (first: number) => new Vector3(...(view!.slice(first, first + 3) as [number, number, number]));
   if (view) scene.sight = { eye: place(0), target: place(3), up: up ? new Vector3(...(up as [number, number, number])) : new Vector3(0, 0, 1) };
   document.body.classList.add("open");
-  if (cut) {
-    clipAxis.value = String(cut[0]);
-    clipShare.value = String(cut[1]);
-  } else if (plane) {
-    clipAxis.value = "plane";
-  }
   clip();
   if (story && !badStory) {
     const why = misfit(story, infos[0]!.times.length, (name) => arrayCalled(name) >= 0);
@@ -444,6 +443,11 @@ worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
   }
   if (data.number < shown) return; // an older wish
   shown = data.number;
+  if (data.kind === "ghost") {
+    ghosts.keep(data.ghost, data.asked);
+    paintGhosts();
+    return goOn(data.last);
+  }
   last = data;
   paint();
   const exact = data.level === 0;
@@ -455,10 +459,15 @@ worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
   chip.dataset["cells"] = String(count);
   if (badStory && exact) chip.textContent += `; ${badStory}`;
   chip.title = `${data.requests} requests, ${(data.bytes / 1e6).toFixed(1)} MB`;
-  if (!playing || !data.last) return;
+  goOn(data.last);
+};
+
+/** Plays on. @param whole all of the moment is shown */
+function goOn(whole: boolean): void {
+  if (!playing || !whole) return;
   clearTimeout(turn);
   turn = window.setTimeout(next, between.checked ? 0 : 1000 / Number(speed.value));
-};
+}
 
 /** @param at steps from the first one, and a part of the way to the next */
 function momentAt(at: number): { step: number; fraction: number } {
@@ -468,9 +477,7 @@ function momentAt(at: number): { step: number; fraction: number } {
 
 function next(): void {
   if (!playing) return;
-  const end = info().times.length - 1;
-  const within = (text: string, otherwise: number) => (/^\d+$/.test(text) ? Math.min(end, Number(text)) : otherwise);
-  const [first, final] = [within(from.value, 0), within(to.value, end)];
+  const [first, final] = playRange();
   if (between.checked) {
     const now = performance.now();
     const at = played.at + Math.min(1, ((now - played.now) / 1000) * Number(speed.value));
@@ -505,6 +512,7 @@ time.addEventListener("input", () => {
   asked = { ...asked, ...momentAt(Number(time.value)) };
   ask(false);
 });
+for (const end of [from, to]) end.addEventListener("change", sayMoment);
 play.addEventListener("click", () => {
   playing = !playing;
   play.textContent = playing ? "Pause" : "Play";
@@ -536,8 +544,9 @@ remove.addEventListener("click", () => {
 const style = () => {
   change({ color: color.value, opacity: Number(opacity.value) });
   scene.look(surfaces);
-  if (slices.length) paintSlices();
-  scene.background(background.value);
+  paintGhosts();
+  if (slices.planes.length) paintSlices();
+  backdrop(background.value);
   keepSoon();
 };
 for (const input of [color, opacity, background]) input.addEventListener("input", style);
@@ -550,31 +559,6 @@ map.addEventListener("change", () => {
   paint();
   keep();
 });
-slice.addEventListener("change", () => {
-  pickedSlice = Number(slice.value);
-  listSlices();
-});
-part("slice-add").addEventListener("click", addSlice);
-part("slice-remove").addEventListener("click", () => {
-  slices.splice(pickedSlice, 1);
-  pickedSlice = Math.max(0, Math.min(pickedSlice, slices.length - 1));
-  ask(false);
-});
-const turnSlice = (normal: readonly number[]) => {
-  const turned = sliceAcross(normal);
-  if (!turned) return listSlices();
-  // About its own point.
-  slices[pickedSlice] = [...slices[pickedSlice]!.slice(0, 3), ...turned.slice(3)];
-  ask(false);
-};
-sliceNormal.addEventListener("change", () => turnSlice(sliceNormal.value.split(",").map(Number)));
-part("slice-axes").querySelectorAll("button").forEach((button, axis) => button.addEventListener("click", () => turnSlice([0, 1, 2].map((i) => Number(i === axis)))));
-for (const name of ["input", "change"])
-  slicePlace.addEventListener(name, () => {
-    const { low, high } = reachAlong(slices[pickedSlice]!.slice(3));
-    placeSlice(low + Number(slicePlace.value) * (high - low));
-    ask(name === "input");
-  });
 sliceOf.addEventListener("change", () => {
   sliceRange = null;
   ask(false);
@@ -585,8 +569,7 @@ for (const input of [sliceMap, isolines])
     keep();
   });
 alone.addEventListener("change", () => ask(false));
-clipAxis.addEventListener("change", clip);
-clipShare.addEventListener("input", clip);
+part("clip-flip").addEventListener("click", () => clips.now && clips.turn(clips.now.slice(3).map((n) => -n + 0)));
 part("copy").addEventListener("click", () => {
   keep();
   void navigator.clipboard?.writeText(location.href);
@@ -609,13 +592,13 @@ document.addEventListener("keydown", (event) => {
   if (event.key === " ") play.click();
   else if (event.key === "ArrowRight") asked = { ...asked, step: Math.min(steps - 1, asked.step + 1), fraction: 0 };
   else if (event.key === "ArrowLeft") asked = { ...asked, step: asked.fraction ? asked.step : Math.max(0, asked.step - 1), fraction: 0 };
-  else if (event.key === "6") return addSlice();
-  else if (event.key === "h" && slices.length) alone.checked = !alone.checked;
-  else if (event.key === "Delete") slices = [];
-  else if ((event.key === "ArrowUp" || event.key === "ArrowDown") && slices[pickedSlice]) {
-    const { cell } = reachAlong(slices[pickedSlice]!.slice(3));
-    placeSlice(along(slices[pickedSlice]!) + (event.key === "ArrowUp" ? cell : -cell));
-  } else return;
+  else if (event.key === "6") return slices.add();
+  else if (event.key === "7") return clips.now ? clips.turn(acrossAxis(info(), nextAxis(info(), clips.now))) : clips.add();
+  else if (event.key === "g") ghosts.toggle();
+  else if (event.key === "h" && slices.planes.length) alone.checked = !alone.checked;
+  else if (event.key === "Delete") slices.set([]);
+  else if (event.key === "ArrowUp" || event.key === "ArrowDown") return (slices.now ? slices : clips).nudge(event.key === "ArrowUp" ? 1 : -1);
+  else return;
   event.preventDefault();
   if (event.key !== " ") ask(false);
 });
@@ -668,8 +651,7 @@ async function openStory(name: string, headers: Record<string, string>): Promise
 }
 
 async function begin(): Promise<void> {
-  background.value = state.background ?? (matchMedia("(prefers-color-scheme: light)").matches ? "#f4f5f7" : "#0f1116");
-  scene.background(background.value);
+  backdrop(state.background ?? (matchMedia("(prefers-color-scheme: light)").matches ? "#f4f5f7" : "#0f1116"));
   // The token came with the link; addresses that are copied leave it out, and this tab remembers it.
   const token = new URLSearchParams(location.hash.replace(/^#/, "")).get("token") ?? sessionStorage.getItem("token");
   if (token) sessionStorage.setItem("token", token);

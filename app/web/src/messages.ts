@@ -1,5 +1,6 @@
 // What the page and its worker say to each other.
 import type { Info } from "./reader/index_file";
+import type { Ghost, Moment } from "./view/ghosts";
 
 /** What is shown: surfaces of one array at a step, or at a moment between two. */
 export interface Asked {
@@ -16,6 +17,9 @@ export interface Asked {
   sliceOf: number;
   /** Surfaces are hidden, and not searched, while there are slices. */
   alone: boolean;
+  /** Moments whose surfaces are wanted afterwards, and how many triangles each may have. */
+  ghosts: Moment[];
+  ghostTriangles: number;
 }
 
 export type ToWorker =
@@ -58,4 +62,5 @@ export type FromWorker =
   /** @param again it is a later state of the file that was open */
   | { kind: "opened"; arrays: Info[]; levels: number; again: boolean }
   | { kind: "found"; number: number; asked: Asked; level: number; found: Found[]; slices: SliceValues[]; last: boolean; requests: number; bytes: number }
+  | { kind: "ghost"; number: number; asked: Asked; ghost: Ghost; last: boolean }
   | { kind: "failed"; number: number; words: string; changed: boolean };

@@ -1,9 +1,10 @@
 // Reads, searches and makes triangles, beside the page. A newer wish ends the search for an older one.
-import type { FromWorker, Found, SliceValues, ToWorker } from "./messages";
+import type { Asked, FromWorker, Found, SliceValues, ToWorker } from "./messages";
 import { Module } from "./module";
 import { IndexFile } from "./reader/index_file";
 import { FileChanged, HttpSource } from "./reader/ranges";
 import { newerWishes, Surfaces, type Piece } from "./search/surfaces";
+import type { Moment } from "./view/ghosts";
 
 const scope = self as unknown as DedicatedWorkerGlobalScope;
 let source: HttpSource;
@@ -62,32 +63,52 @@ function surfacesOf(array: number, level: number): Surfaces {
   return surfaces;
 }
 
+/** The surfaces of isovalues at a moment. */
+async function surfacesAt({ array, colors, isovalues }: Asked, { step, fraction }: Moment, level: number, stop: AbortSignal, colored: boolean): Promise<Found[]> {
+  const surfaces = surfacesOf(array, level);
+  const found: Found[] = [];
+  for (const isovalue of isovalues) {
+    const pieces: Piece[] = [];
+    await surfaces.find(step, fraction, isovalue, (piece) => pieces.push(piece), stop, colored && colors !== null ? surfacesOf(colors, level) : undefined);
+    found.push(whole(pieces));
+  }
+  return found;
+}
+const buffersOf = (found: Found[]): Transferable[] =>
+  found.flatMap((each) => [each.points.buffer, each.normals.buffer, each.triangles.buffer, ...(each.values ? [each.values.buffer] : [])]);
+
+/** Makes the surfaces of other moments, as fine as their triangles may be. @param triangles of the surfaces that they stand beside */
+async function findGhosts(number: number, asked: Asked, triangles: number, stop: AbortSignal): Promise<void> {
+  let level = 0;
+  // Each level of detail has about a quarter of the triangles.
+  while (level + 1 < file!.arrays[asked.array]!.levels.length && triangles / 4 ** level > asked.ghostTriangles) ++level;
+  for (const [i, moment] of asked.ghosts.entries()) {
+    await newerWishes();
+    if (stop.aborted) return;
+    const found = await surfacesAt(asked, moment, level, stop, false);
+    say({ kind: "ghost", number, asked, ghost: { ...moment, level, found }, last: i + 1 === asked.ghosts.length }, buffersOf(found));
+  }
+}
+
 async function find(wish: Extract<ToWorker, { kind: "find" }>, stop: AbortSignal): Promise<void> {
   const { number, asked, levels } = wish;
+  let triangles = 0;
   for (const level of levels) {
     await newerWishes();
     if (stop.aborted) return;
-    const surfaces = surfacesOf(asked.array, level);
-    const colors = asked.colors === null ? undefined : surfacesOf(asked.colors, level);
-    const found: Found[] = [];
     const slices: SliceValues[] = [];
     for (const plane of asked.slices) {
       const slice = await surfacesOf(asked.sliceOf, level).slice(asked.step, asked.fraction, plane, stop);
       if (slice) slices.push(slice);
     }
-    for (const isovalue of asked.alone && asked.slices.length ? [] : asked.isovalues) {
-      const pieces: Piece[] = [];
-      await surfaces.find(asked.step, asked.fraction, isovalue, (piece) => pieces.push(piece), stop, colors);
-      found.push(whole(pieces));
-    }
+    const found = asked.alone && asked.slices.length ? [] : await surfacesAt(asked, asked, level, stop, true);
+    triangles = found.reduce((sum, each) => sum + each.triangles.length / 3, 0);
     say(
-      { kind: "found", number, asked, level, found, slices, last: level === levels.at(-1), requests: source.requests, bytes: source.bytes },
-      [
-        ...found.flatMap((each) => [each.points.buffer, each.normals.buffer, each.triangles.buffer, ...(each.values ? [each.values.buffer] : [])]),
-        ...slices.flatMap((each) => [each.columns.buffer, each.shares.buffer, each.outline.buffer]),
-      ],
+      { kind: "found", number, asked, level, found, slices, last: level === levels.at(-1) && asked.ghosts.length === 0, requests: source.requests, bytes: source.bytes },
+      [...buffersOf(found), ...slices.flatMap((each) => [each.columns.buffer, each.shares.buffer, each.outline.buffer])],
     );
   }
+  await findGhosts(number, asked, triangles, stop);
 }
 
 function failed(number: number, error: unknown): void {

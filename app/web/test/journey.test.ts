@@ -60,6 +60,16 @@ const settled = (page: Page, wanted: number) => page.waitForFunction((count) => 
   const chip = document.getElementById("chip")!;
   return chip.dataset["exact"] === "true" && chip.dataset["cells"] === String(count);
 }, wanted);
+/** The color of the picture at shares of its width and height. */
+const pixel = (page: Page, x: number, y: number) => page.evaluate(([px, py]) => {
+  const canvas = document.getElementById("picture") as HTMLCanvasElement;
+  const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height });
+  const context = copy.getContext("2d")!;
+  context.drawImage(canvas, 0, 0);
+  return [...context.getImageData(px! * canvas.width, py! * canvas.height, 1, 1).data.slice(0, 3)];
+}, [x, y]);
+/** Waits until what was set is drawn. */
+const drawn = (page: Page) => page.evaluate(() => new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go))));
 
 test("shows the surface, and obeys isovalue, time and link", async () => {
   const page = await open("#isovalue=12.5&background=%230f1116");
@@ -77,18 +87,9 @@ test("shows the surface, and obeys isovalue, time and link", async () => {
   await again.goto(link);
   await settled(again, cells(1, 9.5));
   // The ball is in the middle of the picture, and the background is not.
-  const pixel = (x: number, y: number) => page.evaluate(([px, py]) => {
-    const canvas = document.getElementById("picture") as HTMLCanvasElement;
-    const copy = document.createElement("canvas");
-    copy.width = canvas.width;
-    copy.height = canvas.height;
-    const context = copy.getContext("2d")!;
-    context.drawImage(canvas, 0, 0);
-    return [...context.getImageData(px! * canvas.width, py! * canvas.height, 1, 1).data];
-  }, [x, y]);
-  const middle = await pixel(0.5, 0.5);
+  const middle = await pixel(page, 0.5, 0.5);
   expect(middle[0]! + middle[1]!).toBeGreaterThan(150);
-  const side = await pixel(0.98, 0.5);
+  const side = await pixel(page, 0.98, 0.5);
   expect(side[0]! + side[1]!).toBeLessThan(80);
   await page.close();
   await again.close();
@@ -166,6 +167,12 @@ test("numbers the box, and says how long things are", async () => {
   expect(ticks).toContain("20");
   const [words, width] = await page.$eval("#scale", (bar) => [bar.textContent, bar.getBoundingClientRect().width] as const);
   expect(Number(words)).toBeGreaterThan(0);
+  // They are seen on any background, whatever the colors of the panels.
+  for (const [color, light] of [["#ffffff", false], ["#000000", true]] as const) {
+    await page.fill("#background", color);
+    const ink = await page.$$eval("#ticks, #scale", (parts) => parts.map((part) => getComputedStyle(part).color.match(/\d+/g)!.map(Number)));
+    for (const levels of ink) expect(Math.min(...levels) > 128).toBe(light);
+  }
   expect(width).toBeGreaterThan(50);
   await page.close();
 });
@@ -210,26 +217,30 @@ test("tells a story by keys, buttons and touch, and a link opens at its step", a
     { time: 0, text: "Step <b>one</b> <img src=x onerror=alert(1)>", isovalue: 12.5, step: 0 },
     { time: 2, text: "", isovalue: 3 },
     { time: 4, name: "half", text: "In between.", place: [20, 20, 20], isovalue: 9.5, step: 1, fraction: 16384, between: "blend", look: { background: "white" }, clip: { shown: true, point: [20, 20, 20], normal: [0, 0.6, 0.8] }, ...view },
-    { time: 6, text: "The end.", step: 2, between: "hold" },
+    {
+      time: 6, text: "The end.", step: 2, between: "hold", clip: { shown: false, point: [0, 0, 0], normal: [0, 0, 1] }, clip_box: { shown: true, low: [0, 2, 0], high: [39, 99, 30.5] },
+      slices: { planes: [{ point: [20, 20, 20], normal: [0, 0, 1] }, { point: [9, 20, 20], normal: [1, 0, 0] }], picked: 1, coloring: { by: "value", map: "coolwarm", range: [5, 9] }, isolines: false },
+    },
+    { time: 8, text: "Slices alone.", slices: { planes: [{ point: [20, 20, 20], normal: [0, 1, 0] }], alone: true }, clip_box: { shown: false, low: [0, 0, 0], high: [0, 0, 0] } },
   ];
   writeFileSync(join(folder, "tour.isochron-story"), JSON.stringify({ format: "isochron keys", version: 1, keys }));
   writeFileSync(list, JSON.stringify({ files: ["ball.isochron"], story: "tour.isochron-story" }));
   const page = await open();
   const heading = () => page.textContent("#card .heading");
   await settled(page, cells(0, 12.5));
-  expect(await heading()).toBe("1 of 3");
+  expect(await heading()).toBe("1 of 4");
   expect(await page.textContent("#card .text")).toBe(keys[0]!.text);
   expect(await page.$("#card .text *")).toBeNull();
   const first = await page.evaluate("location.hash") as string;
   await page.keyboard.press("PageDown");
   await settled(page, cells(1, 9.5, 16384));
   await page.waitForSelector('#card[data-moving="false"]');
-  expect(await heading()).toBe("2 of 3: half");
-  expect(await page.inputValue("#clip-axis")).toBe("plane");
+  expect(await heading()).toBe("2 of 4: half");
+  expect(await page.inputValue("#clip-normal")).toBe("0, 0.6, 0.8");
   expect(await page.isVisible("#card-line line")).toBe(true);
-  await page.waitForFunction(() => location.hash.includes("told=3") && location.hash.includes("fraction=16384"));
+  await page.waitForFunction(() => /told=3/.test(location.hash) && /fraction=16384/.test(location.hash) && /view=20(%2C|\.0)/.test(location.hash));
   const link = new URLSearchParams(new URL(page.url()).hash.slice(1));
-  expect(link.get("plane")).toBe("20,20,20,0,0.6,0.8");
+  expect(link.get("planes")).toBe("20/20/20/0/0.6/0.8");
   expect(link.get("background")).toBe("#ffffff");
   // The head at 0, 1.6, 0 among the data: (head - translation) / scale, turned back, less their origin; the camera is on the line ahead.
   const camera = link.get("view")!.split(",").map(Number);
@@ -239,7 +250,7 @@ test("tells a story by keys, buttons and touch, and a link opens at its step", a
   const again = await browser.newPage({ viewport: { width: 800, height: 600 } });
   await again.goto(page.url());
   await settled(again, cells(1, 9.5, 16384));
-  expect(await again.textContent("#card .heading")).toBe("2 of 3: half");
+  expect(await again.textContent("#card .heading")).toBe("2 of 4: half");
   expect(new URLSearchParams(new URL(again.url()).hash.slice(1)).get("view")).toBe(link.get("view"));
   // A link that names a step alone shows it.
   const bare = await browser.newPage();
@@ -247,7 +258,17 @@ test("tells a story by keys, buttons and touch, and a link opens at its step", a
   await settled(bare, cells(1, 9.5, 16384));
   await page.click("#card .next");
   await settled(page, cells(2, 9.5));
+  await page.waitForFunction(() => location.hash.includes("told=4") && !location.hash.includes("planes"));
+  const end = new URLSearchParams(new URL(page.url()).hash.slice(1));
+  expect(Object.fromEntries(["slices", "slicemap", "slicerange", "isolines", "box", "alone"].map((name) => [name, end.get(name)]))).toEqual({
+    slices: "20/20/20/0/0/1,9/20/20/1/0/0", slicemap: "coolwarm", slicerange: "5,9", isolines: "0", box: "0,2,0,39,39,30.5", alone: null,
+  });
+  await page.keyboard.press("PageDown");
+  await settled(page, 0);
+  expect(await page.textContent("#chip")).toBe("exact: slices alone");
+  expect(await page.isChecked("#boxed")).toBe(false);
   expect(await page.isDisabled("#card .next")).toBe(true);
+  await page.keyboard.press("PageUp");
   await page.$eval("#card", (card) => {
     for (const [name, clientX] of [["pointerdown", 100], ["pointerup", 200]] as const) card.dispatchEvent(new PointerEvent(name, { pointerType: "touch", clientX }));
   });
@@ -283,13 +304,6 @@ test.each<[string, string, RegExp]>([
 test("shows slices by keys, field and link, beside the surface and alone", async () => {
   const page = await open("#isovalue=12.5&background=%23000000&view=19.75,-60,19.75,19.75,19.75,19.75");
   await settled(page, cells(0, 12.5));
-  const pixel = (x: number, y: number) => page.evaluate(([px, py]) => {
-    const canvas = document.getElementById("picture") as HTMLCanvasElement;
-    const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height });
-    const context = copy.getContext("2d")!;
-    context.drawImage(canvas, 0, 0);
-    return [...context.getImageData(px! * canvas.width, py! * canvas.height, 1, 1).data.slice(0, 3)];
-  }, [x, y]);
   await page.keyboard.press("6"); // across z
   await page.waitForFunction(() => location.hash.includes("slices=19.5%2F19.5%2F19.5%2F0%2F0%2F1"));
   await page.fill("#slice-normal", "0, 2, 0");
@@ -299,9 +313,9 @@ test("shows slices by keys, field and link, beside the surface and alone", async
   await settled(page, 0);
   expect(await page.textContent("#chip")).toBe("exact: slices alone");
   expect(await page.textContent("#slice-words")).toMatch(/^0.4.* to .* mm$/);
-  await page.evaluate(() => new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go))));
+  await drawn(page);
   // In the middle of the ball are the lowest values, which are dark violet in viridis; in its corners are green ones.
-  const [dark, green, beside] = [await pixel(0.5, 0.5), await pixel(0.5 + 0.22, 0.5 - 0.3), await pixel(0.5 + 0.28, 0.5)];
+  const [dark, green, beside] = [await pixel(page, 0.5, 0.5), await pixel(page, 0.5 + 0.22, 0.5 - 0.3), await pixel(page, 0.5 + 0.28, 0.5)];
   expect(dark[2]!).toBeGreaterThan(dark[1]! + 40);
   expect(green[1]!).toBeGreaterThan(green[2]! + 20);
   expect(beside).toEqual([0, 0, 0]);
@@ -319,6 +333,107 @@ test("shows slices by keys, field and link, beside the surface and alone", async
   expect(await page.isVisible("#slice-parts")).toBe(false);
   await page.close();
   await again.close();
+});
+
+test("cuts surfaces by planes and a box, and links hold them", async () => {
+  // Seen from the front, x to the right and z upwards; the ball's radius is 12.5 around 19.75.
+  const page = await open("#isovalue=12.5&background=%23000000&view=19.75,-60,19.75,19.75,19.75,19.75");
+  await settled(page, cells(0, 12.5));
+  const seen = async () => {
+    await drawn(page);
+    const light = async (x: number, z: number) => (await pixel(page, 0.5 + x, 0.5 - z)).some((n) => n > 40);
+    const [topLeft, topRight] = [await light(-0.08, 0.12), await light(0.08, 0.12)];
+    return { topLeft, topRight, bottomLeft: await light(-0.08, -0.12), bottomRight: await light(0.08, -0.12) };
+  };
+  const holds = (words: string) => page.waitForFunction((each) => decodeURIComponent(location.hash).includes(each), words);
+  const all = { topLeft: true, topRight: true, bottomLeft: true, bottomRight: true };
+  expect(await seen()).toEqual(all);
+  await page.keyboard.press("7"); // across z, and the upper half is cut away
+  await holds("planes=19.5/19.5/19.5/0/0/1");
+  expect(await seen()).toEqual({ ...all, topLeft: false, topRight: false });
+  await page.click("#clip-flip");
+  await holds("planes=19.5/19.5/19.5/0/0/-1");
+  expect(await seen()).toEqual({ ...all, bottomLeft: false, bottomRight: false });
+  await page.click("#clip-add"); // across x
+  await page.evaluate(() => (document.activeElement as HTMLElement).blur());
+  await page.keyboard.press("ArrowDown");
+  await holds("planes=19.5/19.5/19.5/0/0/-1,18.5/19.5/19.5/1/0/0");
+  expect(await seen()).toEqual({ topLeft: true, topRight: false, bottomLeft: false, bottomRight: false });
+  await page.check("#boxed");
+  await page.fill("#box-parts label:first-child input:first-child", "15,5");
+  await page.press("#box-parts label:first-child input:first-child", "Enter");
+  await holds("box=15.5,0,0,39,39,39");
+  expect((await seen()).topLeft).toBe(false);
+  const again = await browser.newPage({ viewport: { width: 800, height: 600 } });
+  await again.goto(page.url());
+  await settled(again, cells(0, 12.5));
+  expect(await again.$$eval("#clip option", (options) => options.length)).toBe(2);
+  expect(await again.isChecked("#boxed")).toBe(true);
+  expect(await again.inputValue("#box-parts label:first-child input:first-child")).toBe("15.5");
+  await page.uncheck("#boxed");
+  await page.click("#clip-remove");
+  await page.click("#clip-remove");
+  await page.waitForFunction(() => !/planes|box/.test(location.hash));
+  expect(await seen()).toEqual(all);
+  await page.close();
+  await again.close();
+});
+
+test("shows ghosts of other steps, also while time plays, and links hold them", async () => {
+  // Seen from the front: the ball shrinks by 1 each step, so that only the ghost of an earlier step is beside it.
+  const page = await open("#isovalue=12.5&step=1&background=%23000000&view=19.75,-60,19.75,19.75,19.75,19.75");
+  await settled(page, cells(1, 12.5));
+  const beside = () => pixel(page, 0.5, 0.5 - (12.05 / 77.4) * (800 / 600)); // 12.05 above the middle
+  expect(await beside()).toEqual([0, 0, 0]);
+  const words = () => page.$$eval("#ghost-parts .words div", (lines) => lines.map((line) => line.textContent!.replace("■ ", "")));
+  await page.keyboard.press("g");
+  await page.waitForFunction(() => document.querySelectorAll("#ghost-parts .words div").length === 2);
+  expect(await words()).toEqual(["0", "2"]);
+  await settled(page, cells(1, 12.5));
+  await drawn(page);
+  const blue = await beside();
+  expect(blue[2]!).toBeGreaterThan(blue[0]! + 10);
+  await page.fill("#ghost-parts input:first-child", "0");
+  await page.press("#ghost-parts input:first-child", "Enter");
+  await page.waitForFunction(() => document.querySelectorAll("#ghost-parts .words div").length === 1);
+  await page.waitForFunction(() => decodeURIComponent(location.hash).includes("ghosts=0/2/1/0.25"));
+  await drawn(page);
+  expect(await beside()).toEqual([0, 0, 0]);
+  const again = await browser.newPage({ viewport: { width: 800, height: 600 } });
+  await again.goto(page.url());
+  await settled(again, cells(1, 12.5));
+  await again.waitForFunction(() => document.querySelectorAll("#ghost-parts .words div").length === 1);
+  // Time goes on when the ghosts are there, too.
+  await again.selectOption("#speed", "24");
+  await again.evaluate(() => {
+    const seen = new Set<string>();
+    new MutationObserver(() => {
+      seen.add(`${document.getElementById("moment")!.textContent!.slice(5, 6)}: ${[...document.querySelectorAll("#ghost-parts .words div")].map((line) => line.textContent!.slice(2)).join()}`);
+      document.body.dataset["seen"] = [...seen].join(" ");
+    }).observe(document.querySelector("#ghost-parts .words")!, { childList: true });
+  });
+  await again.click("#play");
+  await again.waitForFunction(() => /1: 1,2/.test(document.body.dataset["seen"] ?? "") && /2: 2/.test(document.body.dataset["seen"] ?? ""));
+  await page.close();
+  await again.close();
+});
+
+test("says dates of the data's calendar", async () => {
+  const file = join(folder, "dated.isochron");
+  execFileSync(program, ["build", ...[0, 1, 2].map((t) => join(folder, `t${t}.raw`)), "-o", file, "--dims", "40", "40", "40", "--type", "f32", "--time-unit", "days since 2000-02-29 06:00 (360_day)"], { stdio: "pipe" });
+  const page = await open("#file=dated.isochron&isovalue=12.5&step=1");
+  await exact(page);
+  expect(await page.textContent("#moment")).toBe("step 2 of 3: 2000-02-30 06:00 (360_day)");
+  expect(await page.getAttribute("#time", "aria-valuetext")).toBe("step 2 of 3: 2000-02-30 06:00 (360_day)");
+  expect(await page.getAttribute("#to", "title")).toBe("2000-03-01 06:00 (360_day)");
+  expect(await page.title()).toBe("dated.isochron, 2000-02-30 06:00 (360_day) - Isochron");
+  await page.check("#between");
+  await page.$eval("#time", (slider: HTMLInputElement) => {
+    slider.value = "1.5";
+    slider.dispatchEvent(new Event("input"));
+  });
+  await page.waitForFunction(() => document.getElementById("moment")!.textContent === "between steps 2 and 3 of 3: 2000-02-30 18:00 (360_day)");
+  await page.close();
 });
 
 test("a link holds settings alone", async () => {

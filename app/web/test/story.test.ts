@@ -14,13 +14,20 @@ test("a story has the keys that the page shows, and what it does not know says n
   const key = told({
     name: "front", place: [1, 2, 3], step: 4, fraction: 7, between: "blend", array: "T", isosurfaces: [{ isovalue: 2.5, color: [1, 0.5, 0], opacity: 0.25 }],
     picked: 0, isovalue: 3, coloring: { by: "value", map: "viridis", array: "p", range: [0, 9], reversed: true, news: 1 }, look: { background: "white", sparkle: 3 },
-    clip: { shown: true, point: [0, 1, 2], normal: [0, 0, -1] }, head: [0, 1.6, 0, 0, 0, 0, 1], room_from_physical: { translation: [1, 2, 3], rotation: [0, 0, 0, 1], scale: 2, exaggeration: 5 },
-    models: [], ghosts: { earlier: 2 }, later_versions: { anything: [1, 2] }, __proto__: null,
+    clip: { shown: true, point: [0, 1, 2], normal: [0, 0, -1] }, clip_box: { shown: true, low: [0, 1.5, 2], high: [9, 8, 7] },
+    slices: {
+      planes: [{ point: [1, 1, 1], normal: [0, 1, 0], shown: false }, { point: [1, 2, 3], normal: [1, 0, 0] }, { point: [4, 5, 6], normal: [0, 0.6, 0.8] }], picked: 2,
+      coloring: { by: "value", map: "coolwarm", array: "p", range: [1, 2] }, isolines: false, alone: true,
+    },
+    head: [0, 1.6, 0, 0, 0, 0, 1], room_from_physical: { translation: [1, 2, 3], rotation: [0, 0, 0, 1], scale: 2, exaggeration: 5 },
+    models: [], ghosts: { earlier: 2, later: 0, every: 3, opacity: 0.5 }, later_versions: { anything: [1, 2] }, __proto__: null,
   });
   expect(key).toEqual({
     name: "front", text: "a", place: [1, 2, 3], step: 4, fraction: 7, blends: true, array: "T", surfaces: [{ isovalue: 2.5, color: "#ff8000", opacity: 0.25 }],
     picked: 0, isovalue: 3, coloring: { by: "value", map: "viridis", array: "p", range: [0, 9] }, background: "white",
-    clip: { shown: true, point: [0, 1, 2], normal: [0, 0, -1] }, head: { position: [0, 1.6, 0], turn: [0, 0, 0, 1] }, data: { place: [1, 2, 3], turn: [0, 0, 0, 1], scale: 2 },
+    clip: [0, 1, 2, 0, 0, -1], box: [0, 1.5, 2, 9, 8, 7],
+    slices: { planes: [[1, 2, 3, 1, 0, 0], [4, 5, 6, 0, 0.6, 0.8]], picked: 1, coloring: { by: "value", map: "coolwarm", array: "p", range: [1, 2] }, isolines: false, alone: true },
+    ghosts: { earlier: 2, later: 0, every: 3, opacity: 0.5 }, head: { position: [0, 1.6, 0], turn: [0, 0, 0, 1] }, data: { place: [1, 2, 3], turn: [0, 0, 0, 1], scale: 2 },
   });
   expect(storyOf(file([{ time: 0, text: "a" }], { data: "../../etc/passwd", more: 1 }), "s")).toHaveLength(1);
 });
@@ -45,6 +52,10 @@ test.each<[string, string, RegExp]>([
   ["a turn of length 2", file([{ time: 0, text: "a", room_from_physical: { translation: [0, 0, 0], rotation: [0, 0, 0, 2], scale: 1 } }]), /^s: key 1: rotation: expected a length of 1/],
   ["no scale", file([{ time: 0, text: "a", room_from_physical: { translation: [0, 0, 0], rotation: [0, 0, 0, 1], scale: 0 } }]), /^s: key 1: scale: expected/],
   ["files of models", file([{ time: 0, text: "a", models: [{ path: "/etc/passwd" }] }]), /^s: key 1: models: a story opens no other files: expected none, got 1$/],
+  ["four slices", file([{ time: 0, text: "a", slices: { planes: Array(4).fill({ point: [0, 0, 0], normal: [1, 0, 0] }) } }]), /^s: key 1: planes: expected a list of 0 to 3/],
+  ["a slice without a direction", file([{ time: 0, text: "a", slices: { planes: [{ point: [0, 0, 0], normal: [0, 0, 0] }] } }]), /^s: key 1: normal: expected a length of 1/],
+  ["a box without a middle", file([{ time: 0, text: "a", clip_box: { shown: true, low: [0, 3, 0], high: [9, 3, 9] } }]), /^s: key 1: high: expected more than low along each axis, got \[9,3,9\]$/],
+  ["five ghosts", file([{ time: 0, text: "a", ghosts: { earlier: 5, later: 0, every: 1, opacity: 1 } }]), /^s: key 1: earlier: expected a whole number from 0 to 4/],
   ["a deep nest", file([{ time: 0, text: "a", x: JSON.parse("[".repeat(40) + "]".repeat(40)) as unknown }]), /^s: nested deeper than 16 levels$/],
 ])("%s is refused in a line", (_, text, said) => {
   expect(() => storyOf(text, "s")).toThrow(said);
@@ -74,6 +85,9 @@ test("a story is refused that needs steps or arrays that the data do not have", 
   expect(of({ step: 3, array: "T" }, { coloring: { by: "value", map: "x", array: "" } }, { coloring: { by: "surface", map: "x", array: "gone" } })).toBe("");
   expect(of({ step: 3 }, { step: 4 })).toBe("key 2: step: expected 0 to 3, got 4");
   expect(of({ array: "gone" })).toBe('key 1: the index has no array "gone"');
+  const slices = (array: string) => ({ planes: [], picked: 0, coloring: { by: "value", map: "x", array }, isolines: true, alone: false });
+  expect(of({ slices: slices("T") })).toBe("");
+  expect(of({ slices: slices("gone") })).toBe('key 1: the index has no array "gone"');
   expect(of({ coloring: { by: "value", map: "x", array: "gone" } })).toBe('key 1: the index has no array "gone"');
 });
 
@@ -88,7 +102,7 @@ test("steps are the keys with texts, numbered as the program numbers them", () =
 });
 
 test("a link names the file of a story beside it and its key, and no other place", () => {
-  const state = { file: "a.isochron", story: "tour.isochron-story", told: 3, up: [0, 1, 0], plane: [1, 2, 3, 0, 0, 1], fraction: 5, range: [0, 1] };
+  const state = { file: "a.isochron", story: "tour.isochron-story", told: 3, up: [0, 1, 0], planes: [[1, 2, 3, 0, 0, 1]], fraction: 5, range: [0, 1] };
   expect(linked(linkOf(state))).toEqual({ ...state, isovalue: undefined });
   for (const story of ["../a", "/a", "http://x/a", "a/b", ".a", "a?b", "a#b", "\\a"])
     expect(linked(`#story=${encodeURIComponent(story)}&told=-1&fraction=65536&up=0,0,0&plane=1,1,1,0,0,0&range=2,1`)).toEqual({ isovalue: undefined });

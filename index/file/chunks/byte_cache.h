@@ -52,7 +52,7 @@ class ByteCache {
         std::uint64_t bytes;
     };
     void add_all(std::vector<Entry> entries);
-    /// Counts as use of what is held under the keys, without asking for it.
+    /// Counts as a use of what is held under the keys, without returning it.
     void touch(std::span<const Key> keys);
     /// Which of the keys are held. Does not count as use.
     std::vector<bool> held(std::span<const Key> keys) const;

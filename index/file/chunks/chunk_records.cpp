@@ -33,8 +33,7 @@ std::vector<RecordRun> runs_of(const ChunkLayer& table, std::span<const std::uin
 }
 
 void ChunkDecoder::damaged(std::uint32_t step, const std::string& what) const {
-    throw Error(
-        fmt::format("{}: damaged: {}, step {}: {}", source_.name(), array_.called, step, what));
+    throw Error("{}: damaged: {}, step {}: {}", source_.name(), array_.called, step, what);
 }
 
 void ChunkDecoder::damaged(std::uint32_t step, std::uint32_t layer, std::uint32_t place,

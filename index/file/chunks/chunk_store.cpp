@@ -5,7 +5,6 @@
 #include "index/file/sections/step_levels.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace isochron::index {

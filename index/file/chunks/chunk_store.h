@@ -13,7 +13,6 @@
 #include <mutex>
 #include <span>
 #include <stop_token>
-#include <string>
 #include <vector>
 
 namespace isochron::index {

@@ -33,23 +33,21 @@ void check_kind(const std::string& name, const HeaderSlot& slot, std::size_t the
     const FileHeader expected;
     const std::size_t known = std::min(there, expected.magic.size());
     if (there == 0 || std::memcmp(slot.data(), expected.magic.data(), known) != 0)
-        throw Error(fmt::format("{}: not an isochron index", name));
+        throw Error("{}: not an isochron index", name);
     FileHeader header;
     std::memcpy(&header, slot.data(), sizeof header);
     if (there < kHeaderBytes)
-        throw Error(fmt::format("{}: truncated: {} bytes, the headers alone have {}", name, there,
-                                kDataBegin));
+        throw Error("{}: truncated: {} bytes, the headers alone have {}", name, there, kDataBegin);
     if (header.byte_order != expected.byte_order)
-        throw Error(fmt::format("{}: byte order mark {:08x}, expected {:08x}", name,
-                                header.byte_order, expected.byte_order));
+        throw Error("{}: byte order mark {:08x}, expected {:08x}", name, header.byte_order,
+                    expected.byte_order);
     if (header.version >= kVersionWithoutSince && header.version <= kFileVersion)
         return;
     const std::string what = fmt::format("{}: file version {}, this program reads versions {} to "
                                          "{}",
                                          name, header.version, kVersionWithoutSince, kFileVersion);
     if (header.version + 1 == kVersionWithoutSince)
-        throw Error(fmt::format("{}; isochron build {} -o NEW.isochron converts it", what,
-                                shell_word(name)));
+        throw Error("{}; isochron build {} -o NEW.isochron converts it", what, shell_word(name));
     throw Error(what);
 }
 
@@ -88,10 +86,10 @@ FileHeader checked_header(const ByteSource& file) {
             newest = header;
     }
     if (!newest)
-        throw Error(fmt::format("{}: damaged header: its checksum does not match", name));
+        throw Error("{}: damaged header: its checksum does not match", name);
     if (newest->file_bytes > file.size())
-        throw Error(fmt::format("{}: truncated: {} bytes, the header says {}", name, file.size(),
-                                newest->file_bytes));
+        throw Error("{}: truncated: {} bytes, the header says {}", name, file.size(),
+                    newest->file_bytes);
     check_sections(file, *newest, "header");
     return *newest;
 }
@@ -102,8 +100,8 @@ void check_sections(const ByteSource& file, const FileHeader& header, const char
             section.offset % kPartAlignment || section.offset < kDataBegin ||
             section.offset > header.file_bytes ||
             section.bytes > header.file_bytes - section.offset)
-            throw Error(fmt::format("{}: damaged {}: section {} lies outside the file", file.name(),
-                                    called, kSectionNames[i]));
+            throw Error("{}: damaged {}: section {} lies outside the file", file.name(), called,
+                        kSectionNames[i]);
 }
 
 } // namespace isochron::index

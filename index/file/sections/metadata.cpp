@@ -6,11 +6,9 @@
 #include "index/error.h"
 #include "index/file/sections/metadata_json.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace isochron::index {
 namespace {
@@ -30,7 +28,7 @@ void check_depth(std::string_view text) {
             quoted = !quoted;
         else if (!quoted && (c == '[' || c == '{')) {
             if (++depth > kMaxDepth)
-                throw Error(fmt::format("nested more than {} deep", kMaxDepth));
+                throw Error("nested more than {} deep", kMaxDepth);
         } else if (!quoted && (c == ']' || c == '}') && depth > 0)
             --depth;
     }
@@ -116,7 +114,7 @@ ChosenTiers plan_of(const json& j) {
         if (tier)
             plan.tiers = plan.tiers.with(*tier);
         else if (!is_former_tier(name.get<std::string>()))
-            throw Error(fmt::format("unknown tier {}", name.dump()));
+            throw Error("unknown tier {}", name.dump());
     }
     j.at("reasons").get_to(plan.reasons);
     std::erase_if(plan.reasons,

@@ -5,7 +5,6 @@
 #include "index/file/sections/blend_quality.h"
 #include "index/file/sections/index_contents.h"
 
-#include <fmt/format.h>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
@@ -27,15 +26,15 @@ struct ArrayPlace;
 template <class T>
 T whole(const json& value) {
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<T>::max())
-        throw Error(fmt::format("expected a whole number up to {}, got {}",
-                                std::numeric_limits<T>::max(), value.dump()));
+        throw Error("expected a whole number up to {}, got {}", std::numeric_limits<T>::max(),
+                    value.dump());
     return value.get<T>();
 }
 
 template <class Numbers>
 void get_whole(const json& values, Numbers& out) {
     if (!values.is_array() || values.size() != out.size())
-        throw Error(fmt::format("expected {} whole numbers", out.size()));
+        throw Error("expected {} whole numbers", out.size());
     for (std::size_t i = 0; i < out.size(); ++i)
         out[i] = whole<typename Numbers::value_type>(values[i]);
 }

@@ -142,7 +142,7 @@ ColorArray color_of(const json& j) {
     j.at("low").get_to(color.low);
     j.at("high").get_to(color.high);
     if (!(color.low <= color.high) || !std::isfinite(color.low) || !std::isfinite(color.high))
-        throw Error(fmt::format("colors from {} to {}", color.low, color.high));
+        throw Error("colors from {} to {}", color.low, color.high);
     color.nan_values = whole<std::uint64_t>(j.at("nan_values"));
     get_optional(j, "chosen_array", color.chosen_array);
     get_optional(j, "chosen_component", color.chosen_component);
@@ -164,7 +164,7 @@ BlendQuality blends_of(const json& j) {
     get_optional(j, "every_fourth", blends.every_fourth);
     for (const double voxels : {blends.every_second, blends.every_fourth.value_or(0)})
         if (!(voxels >= 0 && voxels <= BlendQuality::kFarthest))
-            throw Error(fmt::format("blends that are off by {} voxels", voxels));
+            throw Error("blends that are off by {} voxels", voxels);
     blends.cells = whole<std::uint64_t>(j.at("cells"));
     blends.lone_second = whole<std::uint64_t>(j.at("lone_second"));
     blends.lone = whole<std::uint64_t>(j.at("lone"));
@@ -183,7 +183,7 @@ std::uint64_t number_from_hex(const json& value) {
     std::uint64_t number = 0;
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number, 16);
     if (failure != std::errc{} || end != text.data() + text.size() || text.size() != 16)
-        throw Error(fmt::format("expected 16 hexadecimal digits, got {}", value.dump()));
+        throw Error("expected 16 hexadecimal digits, got {}", value.dump());
     return number;
 }
 
@@ -204,7 +204,7 @@ json json_of(const std::vector<ArrayPlace>& further) {
 
 std::vector<ArrayPlace> further_of(const json& j) {
     if (!j.is_array() || j.size() >= kMostArrays)
-        throw Error(fmt::format("expected a list of fewer than {} further arrays", kMostArrays));
+        throw Error("expected a list of fewer than {} further arrays", kMostArrays);
     std::vector<ArrayPlace> further;
     for (const json& item : j) {
         ArrayPlace& place = further.emplace_back();

@@ -16,7 +16,7 @@ class DecodedFile {
     virtual ~DecodedFile() = default;
 
     /// What the file holds and its number of steps, as in `VolumeFile`.
-    virtual const SeriesInfo& info() const = 0;
+    const SeriesInfo& info() const { return info_; }
     virtual std::size_t steps() const = 0;
 
     /// Number of slices for one request: those that the library decodes together, or enough to be
@@ -29,6 +29,9 @@ class DecodedFile {
     /// multiple of `slices_at_once`; they are that many, or all that are left.
     /// @throws Error naming the file
     virtual void read(std::size_t step, Slices slices, std::span<std::byte> out) = 0;
+
+  protected:
+    SeriesInfo info_; ///< whole once the file is open
 };
 
 /// A number of slices that makes a request cheap compared with copying them, while they fit the

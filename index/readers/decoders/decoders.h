@@ -3,9 +3,6 @@
 
 #include "index/readers/decoders/decoded_file.h"
 
-#include <utility>
-#include <vector>
-
 namespace isochron::index {
 
 /// VTK XML image data (.vti) in all encodings and with all compressors.

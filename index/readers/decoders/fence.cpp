@@ -18,9 +18,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
-#include <initializer_list>
 #include <string>
-#include <string_view>
 
 namespace isochron::index {
 namespace {

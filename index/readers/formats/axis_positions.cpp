@@ -18,10 +18,9 @@ AxisSpread spread_of(const std::vector<double>& at, const std::string& label,
     for (std::size_t i = 1; i < at.size(); ++i) {
         const double gap = (at[i] - at[i - 1]) * (step < 0 ? -1 : 1);
         if (!(gap > 0) || !std::isfinite(gap))
-            throw Error(
-                fmt::format("{}: {}: {} after {}, expected coordinates that all increase or "
-                            "all decrease (--spacing does without them)",
-                            file, label, at[i], at[i - 1]));
+            throw Error("{}: {}: {} after {}, expected coordinates that all increase or all "
+                        "decrease (--spacing does without them)",
+                        file, label, at[i], at[i - 1]);
         least = std::min(least, gap);
         most = std::max(most, gap);
         off = std::max(off, std::abs(at[i] - first - static_cast<double>(i) * step));

@@ -48,7 +48,7 @@ class BovHeader {
                 fields_[lower_case(field->key)] = std::move(field->value);
         }
         if (!fields_.contains("data_file") || !fields_.contains("data_size"))
-            throw Error(fmt::format("{}: not BOV: no DATA_FILE or no DATA_SIZE", file_));
+            throw Error("{}: not BOV: no DATA_FILE or no DATA_SIZE", file_);
     }
 
     std::string text(const std::string& key, const std::string& otherwise = "") const {
@@ -60,8 +60,7 @@ class BovHeader {
         if (numbers.empty())
             return std::nullopt;
         if (numbers.size() != 3)
-            throw Error(
-                fmt::format("{}: {} has {} numbers, expected 3", file_, key, numbers.size()));
+            throw Error("{}: {} has {} numbers, expected 3", file_, key, numbers.size());
         return glm::dvec3(numbers[0], numbers[1], numbers[2]);
     }
     std::int64_t integer(const std::string& key, std::int64_t otherwise) const {
@@ -69,8 +68,7 @@ class BovHeader {
         if (numbers.empty())
             return otherwise;
         if (numbers.size() != 1 || numbers[0] < 0)
-            throw Error(
-                fmt::format("{}: {} {}, expected 0 or more", file_, key, excerpt(text(key))));
+            throw Error("{}: {} {}, expected 0 or more", file_, key, excerpt(text(key)));
         return numbers[0];
     }
 
@@ -97,8 +95,7 @@ void place_brick(const BovHeader& header, const Bricklet& brick, const std::stri
     const glm::dvec3 origin = header.vec3("brick_origin").value_or(glm::dvec3(0));
     const std::string centering = lower_case(header.text("centering", "zonal"));
     if (centering != "zonal" && centering != "nodal")
-        throw Error(
-            fmt::format("{}: CENTERING {}, expected zonal or nodal", name, excerpt(centering)));
+        throw Error("{}: CENTERING {}, expected zonal or nodal", name, excerpt(centering));
     const bool cells = centering == "zonal";
     glm::dmat3 steps(1.0);
     info.grid.origin = origin;
@@ -126,15 +123,14 @@ StoredArray array_of(const BovHeader& header, const std::string& name) {
     const auto known = std::ranges::find_if(
         kBovTypes, [&](const auto& entry) { return type.starts_with(entry.first); });
     if (known == kBovTypes.end())
-        throw Error(fmt::format("{}: DATA_FORMAT {}, expected BYTE, SHORT, INT, LONG, FLOAT or "
-                                "DOUBLE",
-                                name, excerpt(type)));
+        throw Error("{}: DATA_FORMAT {}, expected BYTE, SHORT, INT, LONG, FLOAT or DOUBLE", name,
+                    excerpt(type));
     std::string variable = header.text("variable", "values");
     std::erase(variable, '"');
     StoredArray array{variable, known->second};
     const std::int64_t components = header.integer("data_components", 1);
     if (components < 1 || components > 64)
-        throw Error(fmt::format("{}: DATA_COMPONENTS {}, expected 1 to 64", name, components));
+        throw Error("{}: DATA_COMPONENTS {}, expected 1 to 64", name, components);
     array.components = static_cast<std::uint32_t>(components);
     return array;
 }
@@ -165,7 +161,7 @@ std::array<std::int64_t, 3> three_sizes(const BovHeader& header, const char* key
                                         const std::string& name) {
     const auto sizes = integers_of(header.text(lower_case(key)), key, name);
     if (sizes.size() != 3)
-        throw Error(fmt::format("{}: {} has {} numbers, expected 3", name, key, sizes.size()));
+        throw Error("{}: {} has {} numbers, expected 3", name, key, sizes.size());
     return {sizes[0], sizes[1], sizes[2]};
 }
 
@@ -180,13 +176,13 @@ std::vector<Bricklet> bricklets_of(const BovHeader& header, const Bricklet& whol
     std::int64_t count = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (one.sizes[axis] < 1 || whole.sizes[axis] % one.sizes[axis] != 0)
-            throw Error(fmt::format("{}: DATA_BRICKLETS {}, expected a divisor of {}", name,
-                                    one.sizes[axis], whole.sizes[axis]));
+            throw Error("{}: DATA_BRICKLETS {}, expected a divisor of {}", name, one.sizes[axis],
+                        whole.sizes[axis]);
         along[axis] = whole.sizes[axis] / one.sizes[axis];
         count = along[axis] > kMost ? kMost + 1 : std::min(count * along[axis], kMost + 1);
     }
     if (count > kMost)
-        throw Error(fmt::format("{}: more than {} bricklets", name, kMost));
+        throw Error("{}: more than {} bricklets", name, kMost);
     const auto files =
         numbered_names(fmt::format("{} 0 {} 1", header.text("data_file"), count - 1), name);
     std::vector<Bricklet> bricklets;

@@ -39,11 +39,10 @@ To converted_value(From value, const Scaling& scaling, const std::string& file) 
         if (!(wide >= static_cast<double>(std::numeric_limits<To>::lowest()) &&
               wide <= static_cast<double>(std::numeric_limits<To>::max())) ||
             wide != std::floor(wide))
-            throw Error(fmt::format("{}: holds {}, which no {} is: --type f32 or f64 keeps it",
-                                    file, wide,
-                                    sizeof(To) == 1   ? "integer of 8 bits"
-                                    : sizeof(To) == 2 ? "integer of 16 bits"
-                                                      : "integer of 32 bits"));
+            throw Error("{}: holds {}, which no {} is: --type f32 or f64 keeps it", file, wide,
+                        sizeof(To) == 1   ? "integer of 8 bits"
+                        : sizeof(To) == 2 ? "integer of 16 bits"
+                                          : "integer of 32 bits");
         return static_cast<To>(wide);
     }
 }

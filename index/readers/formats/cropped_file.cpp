@@ -128,22 +128,20 @@ VolumePart part_in(const Grid& grid, const ReadOptions& options, const std::stri
         if (options.crop) {
             const auto [first, last] = (*options.crop)[axis];
             if (first > last || last >= all)
-                throw Error(fmt::format("{}: --crop {}:{} along {}, expected vertices of 0:{}",
-                                        file, first, last, "xyz"[axis], all - 1));
+                throw Error("{}: --crop {}:{} along {}, expected vertices of 0:{}", file, first,
+                            last, "xyz"[axis], all - 1);
             part.first[axis] = first;
             part.last[axis] = last;
         }
         if (options.stride)
             part.stride[axis] = (*options.stride)[axis];
         if (part.stride[axis] == 0)
-            throw Error(fmt::format("{}: --stride 0, expected 1 or more", file));
+            throw Error("{}: --stride 0, expected 1 or more", file);
         part.count[axis] = (part.last[axis] - part.first[axis]) / part.stride[axis] + 1;
         if (part.count[axis] < 2)
-            throw Error(
-                fmt::format("{}: {}:{} along {} with every {}th vertex leaves {}, expected at "
-                            "least 2",
-                            file, part.first[axis], part.last[axis], "xyz"[axis], part.stride[axis],
-                            part.count[axis]));
+            throw Error("{}: {}:{} along {} with every {}th vertex leaves {}, expected at least 2",
+                        file, part.first[axis], part.last[axis], "xyz"[axis], part.stride[axis],
+                        part.count[axis]);
     }
     return part;
 }

@@ -61,8 +61,8 @@ class JoinedData final : public DataStream {
 
     void expect_none(std::size_t part, const Rest& rest) const {
         if (rest.bytes > 0 || rest.foreign > 0)
-            throw Error(fmt::format("{}: more values in it than its share, {} bytes",
-                                    parts_[part].path.string(), each_));
+            throw Error("{}: more values in it than its share, {} bytes",
+                        parts_[part].path.string(), each_);
     }
 
     std::vector<DataPart> parts_;
@@ -107,15 +107,15 @@ std::vector<std::string> numbered_names(const std::string& pattern, const std::s
         numbers.push_back(integers_of(words[i], "a pattern of names", file).front());
     // A fourth number, of NRRD, says how many axes a file has.
     if (!name || numbers.size() < 2 || numbers.size() > 4)
-        throw Error(fmt::format("{}: {}, expected a pattern such as slice%03d.raw 1 64 1", file,
-                                excerpt(pattern)));
+        throw Error("{}: {}, expected a pattern such as slice%03d.raw 1 64 1", file,
+                    excerpt(pattern));
     const std::int64_t step = numbers.size() > 2 ? numbers[2] : 1;
     const std::int64_t range = numbers[1] - numbers[0];
     constexpr std::int64_t kMost = 1 << 20;
     if (step == 0 || numbers[0] < 0 || numbers[1] < 0 || numbers[0] > kMost * kMost ||
         numbers[1] > kMost * kMost || range / step < 0 || range / step >= kMost)
-        throw Error(fmt::format("{}: files {} to {} by {}, expected 1 to {} of them", file,
-                                numbers[0], numbers[1], step, kMost));
+        throw Error("{}: files {} to {} by {}, expected 1 to {} of them", file, numbers[0],
+                    numbers[1], step, kMost);
     std::vector<std::string> names;
     for (std::int64_t i = 0; i <= range / step; ++i)
         names.push_back(fmt::format("{}{:0{}}{}", name->before, numbers[0] + i * step, name->digits,

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace isochron::index {
@@ -30,8 +29,8 @@ class PlainData final : public DataStream {
         const std::uint64_t begin = offset_ + position;
         const std::size_t got = file_.read(begin, out);
         if (got < out.size())
-            throw Error(fmt::format("{}: truncated: data end at byte {}, expected {}", name_,
-                                    begin + got, begin + out.size()));
+            throw Error("{}: truncated: data end at byte {}, expected {}", name_, begin + got,
+                        begin + out.size());
     }
 
     Rest rest(std::uint64_t position) override {
@@ -228,16 +227,16 @@ class CompressedData final : public DataStream {
         const bool good = decoder_->step(pending_, out);
         position_ += room - out.size();
         if (!good)
-            throw Error(fmt::format("{}: damaged {} data after {} decompressed bytes", name_,
-                                    Decoder::kName, position_));
+            throw Error("{}: damaged {} data after {} decompressed bytes", name_, Decoder::kName,
+                        position_);
         if (!fed && room == out.size() && !decoder_->ended())
             fail_truncated("the check that ends them");
         return true;
     }
 
     [[noreturn]] void fail_truncated(const std::string& expected) const {
-        throw Error(fmt::format("{}: truncated: {} data end after {} bytes, expected {}", name_,
-                                Decoder::kName, position_, expected));
+        throw Error("{}: truncated: {} data end after {} bytes, expected {}", name_, Decoder::kName,
+                    position_, expected);
     }
 
     std::string name_;
@@ -284,7 +283,7 @@ std::string head_of(const fs::path& path, std::size_t most) {
         }
         const std::size_t had = pending.size(), wanted = output.size();
         if (!decoder.step(pending, output))
-            throw Error(fmt::format("{}: damaged deflate data", path.string()));
+            throw Error("{}: damaged deflate data", path.string());
         if (had == 0 && wanted == output.size())
             break;
     }
@@ -305,10 +304,10 @@ void expect_room(const fs::path& path, std::uint64_t offset, Compression compres
     const std::uint64_t rest = size > offset ? size - offset : 0;
     const std::uint64_t ratio = kBestRatio[static_cast<std::size_t>(compression)];
     if (offset > size || bytes / ratio > rest)
-        throw Error(fmt::format("{}: truncated: {} bytes of data expected after byte {}, the file "
-                                "has {} bytes{}",
-                                path.string(), bytes, offset, size,
-                                compression == Compression::none ? "" : " (compressed)"));
+        throw Error(
+            "{}: truncated: {} bytes of data expected after byte {}, the file has {} bytes{}",
+            path.string(), bytes, offset, size,
+            compression == Compression::none ? "" : " (compressed)");
 }
 
 std::unique_ptr<DataStream> open_data(const fs::path& path, std::uint64_t offset,

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -39,7 +38,7 @@ void check(const Described& described, const std::string& name) {
         described.slices_at_once == 0 || described.slices_at_once > info.grid.vertices[2] ||
         info.scaling.slope == 0 || !std::isfinite(info.scaling.slope) ||
         !std::isfinite(info.scaling.intercept))
-        throw Error(fmt::format("{}: cannot be read: its reader describes no volume", name));
+        throw Error("{}: cannot be read: its reader describes no volume", name);
 }
 
 /// A file that describes a folder stands for it: `CASE/system/controlDict`.
@@ -105,7 +104,7 @@ class ForeignFile final : public VolumeFile {
         if (now.info.step_bytes() != described_.info.step_bytes() ||
             now.info.type != described_.info.type || now.steps != described_.steps ||
             now.slices_at_once != described_.slices_at_once)
-            throw Error(fmt::format("{}: has changed since it was opened", name_));
+            throw Error("{}: has changed since it was opened", name_);
     }
 
     /// What to do before the next piece is there; only the size of that piece is known.
@@ -185,8 +184,7 @@ std::unique_ptr<VolumeFile> open_in_format(const Format& format, const fs::path&
             const std::string other = foreign_format_of(start);
             if (other.empty() || (format.headerless && options.dims) || begins_as(format, start))
                 throw;
-            throw Error(fmt::format("{}: {} by its name, its content is {}", path.string(),
-                                    format.name, other));
+            throw Error("{}: {} by its name, its content is {}", path.string(), format.name, other);
         }
     };
     if (!options.crop && !options.stride)

@@ -38,20 +38,19 @@ std::unique_ptr<VolumeFile> open_gaussian_cube(const std::filesystem::path& path
     std::size_t at = 0;
     const auto text = [&](std::string_view what) {
         if (at >= head.size())
-            throw Error(fmt::format("{}: not a Gaussian cube, or truncated: no {}", name, what));
+            throw Error("{}: not a Gaussian cube, or truncated: no {}", name, what);
         return take_line(head, at);
     };
     const auto line = [&](std::string_view what, std::size_t least) {
         std::vector<double> numbers = numbers_of(text(what), std::string(what), name);
         if (numbers.size() < least)
-            throw Error(fmt::format("{}: not a Gaussian cube: {} with {} numbers, expected {}",
-                                    name, what, numbers.size(), least));
+            throw Error("{}: not a Gaussian cube: {} with {} numbers, expected {}", name, what,
+                        numbers.size(), least);
         return numbers;
     };
     const auto whole = [&](double number, std::string_view what, double most) {
         if (number != std::floor(number) || !(std::abs(number) <= most))
-            throw Error(fmt::format("{}: {} {}, expected a whole number up to {}", name, number,
-                                    what, most));
+            throw Error("{}: {} {}, expected a whole number up to {}", name, number, what, most);
         return static_cast<std::int64_t>(number);
     };
     text("title");
@@ -89,8 +88,7 @@ std::unique_ptr<VolumeFile> open_gaussian_cube(const std::filesystem::path& path
         info.notes.push_back("a line of orbitals follows the atoms, as Molden writes it");
     }
     if (components < 1)
-        throw Error(
-            fmt::format("{}: {} values at each point, expected at least 1", name, components));
+        throw Error("{}: {} values at each point, expected at least 1", name, components);
     if (atoms != 0)
         info.notes.push_back(fmt::format("{} atom{} beside the values left out", std::abs(atoms),
                                          std::abs(atoms) == 1 ? "" : "s"));

@@ -8,7 +8,6 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
-#include <string_view>
 
 namespace isochron::index {
 namespace {

@@ -90,27 +90,26 @@ std::filesystem::path file_of_model_series(const std::filesystem::path& path, st
             matches_pattern(pattern, name) && is_model_name(name))
             names.push_back(taken_apart(name));
     if (names.size() != steps)
-        throw Error(fmt::format("{}: {} files, expected {}: one for each step", path.string(),
-                                names.size(), steps));
+        throw Error("{}: {} files, expected {}: one for each step", path.string(), names.size(),
+                    steps);
     const auto found = names.begin() + static_cast<std::ptrdiff_t>(std::min(step, steps - 1));
     std::nth_element(names.begin(), found, names.end(), natural_less);
     const std::filesystem::path file = path.parent_path() / found->name;
     if (std::filesystem::is_symlink(file, error))
-        throw Error(fmt::format("{}: is a link, expected the files of a series", file.string()));
+        throw Error("{}: is a link, expected the files of a series", file.string());
     return file;
 }
 
-TriangleMesh read_model(const std::filesystem::path& path, const std::string& unit) {
+TriangleMesh read_model(const std::filesystem::path& path, const std::string& unit,
+                        const std::stop_token& stop) {
     const ModelFormat* const format = model_format(path);
     if (!format)
-        throw Error(fmt::format("{}: no model by its name: expected {}", path.string(),
-                                model_extensions()));
+        throw Error("{}: no model by its name: expected {}", path.string(), model_extensions());
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
-        throw Error(fmt::format("{}: {}", path.string(),
-                                std::filesystem::exists(path, error)
-                                    ? "is no file, expected a model"
-                                    : "there is no such file"));
+        throw Error("{}: {}", path.string(),
+                    std::filesystem::exists(path, error) ? "is no file, expected a model"
+                                                         : "there is no such file");
     ReaderPool& readers = readers_of_this_process();
     readers.let_read(path);
     ReaderLease lease(readers, std::string(format->reader), path, false);
@@ -118,12 +117,12 @@ TriangleMesh read_model(const std::filesystem::path& path, const std::string& un
     lease.work([] {},
                [&] {
                    lease.reader().ask(ReadModel{path});
-                   const auto read = lease.expect<ModelRead>();
+                   const auto read = lease.expect<ModelRead>(stop);
                    const std::uint64_t most = std::uint64_t{3} * kMostModelTriangles;
                    if (read.points == 0 || read.points > most || read.corners == 0 ||
                        read.corners > most || read.corners % 3 != 0 ||
                        !std::isfinite(read.origin.x + read.origin.y + read.origin.z))
-                       throw Error(fmt::format("{}: its reader describes no model", path.string()));
+                       throw Error("{}: its reader describes no model", path.string());
                    mesh.origin = read.origin;
                    mesh.points.resize(read.points);
                    mesh.normals.resize(read.points);
@@ -131,12 +130,12 @@ TriangleMesh read_model(const std::filesystem::path& path, const std::string& un
                    std::span<const std::byte> shared = lease.reader().memory(
                        read.points * 2 * sizeof(glm::vec3) + read.corners * sizeof(std::uint32_t));
                    lease.reader().ask(TakeModel{});
-                   lease.expect<SlabRead>();
+                   lease.expect<SlabRead>(stop);
                    take_part(shared, mesh.points);
                    take_part(shared, mesh.normals);
                    take_part(shared, mesh.corners);
                    if (!is_whole(mesh))
-                       throw Error(fmt::format("{}: its reader describes no model", path.string()));
+                       throw Error("{}: its reader describes no model", path.string());
                });
     if (const auto meters = meters_in(unit); meters && format->in_meters) {
         mesh.origin /= *meters;

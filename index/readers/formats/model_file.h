@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <stop_token>
 #include <string>
 
 namespace isochron::index {
@@ -22,11 +23,13 @@ std::filesystem::path file_of_model_series(const std::filesystem::path& path, st
                                            std::size_t steps);
 
 /// Reads behind the fence of readers: nothing but the file and what lies in its folder is readable there.
-/// Places are those of the file, with the origin that `isochron export` has subtracted from them.
-/// @param unit of length of the data, into which those of glTF come, which are in meters; else, and
-/// where the unit is not known, they stay as they are
+/// Coordinates are those of the file, with the origin added that `isochron export` has subtracted.
+/// @param unit of length of the data: coordinates of glTF, which are in meters, are converted to it;
+/// others stay as they are, and so do all where it is not known
 /// @throws Error naming the file, in one line: damaged, too large, no model by its name, or its
 /// reader is not installed
-TriangleMesh read_model(const std::filesystem::path& path, const std::string& unit = {});
+/// @throws Interrupted when stopped
+TriangleMesh read_model(const std::filesystem::path& path, const std::string& unit = {},
+                        const std::stop_token& stop = {});
 
 } // namespace isochron::index

@@ -84,9 +84,9 @@ void take_mode(const BinaryHeader& h, const std::string& name, SeriesInfo& info,
         array.components = 3;
         break;
     default:
-        throw Error(fmt::format("{}: MRC of mode {}, expected 0, 1, 2, 3, 4, 6, 12 or 16; IMOD's "
-                                "newstack -mode 0 IN OUT writes bytes",
-                                name, mode));
+        throw Error("{}: MRC of mode {}, expected 0, 1, 2, 3, 4, 6, 12 or 16; IMOD's newstack "
+                    "-mode 0 IN OUT writes bytes",
+                    name, mode);
     }
 }
 
@@ -104,9 +104,8 @@ glm::dmat3 cell_edges(const std::array<float, 3>& lengths, std::array<float, 3> 
     const double height = 1 - beta * beta - up * up;
     if (!(sine > 0) || !(height > 0))
         throw Error(
-            fmt::format("{}: a cell with angles of {}, {} and {} degrees, expected those of "
-                        "a parallelepiped",
-                        name, angles[0], angles[1], angles[2]));
+            "{}: a cell with angles of {}, {} and {} degrees, expected those of a parallelepiped",
+            name, angles[0], angles[1], angles[2]);
     return {glm::dvec3(1, 0, 0) * static_cast<double>(lengths[0]),
             glm::dvec3(gamma, sine, 0) * static_cast<double>(lengths[1]),
             glm::dvec3(beta, up, std::sqrt(height)) * static_cast<double>(lengths[2])};
@@ -160,9 +159,8 @@ std::size_t steps_of_stack(const BinaryHeader& h, Three& sizes, const std::strin
     if (group < kVolumeStack || sections < 1)
         return 1;
     if (sizes[2] % sections != 0)
-        throw Error(fmt::format("{}: a stack of volumes of {} sections, expected a multiple of MZ, "
-                                "{}",
-                                name, sizes[2], sections));
+        throw Error("{}: a stack of volumes of {} sections, expected a multiple of MZ, {}", name,
+                    sizes[2], sections);
     const std::int32_t steps = sizes[2] / sections;
     sizes[2] = sections;
     return static_cast<std::size_t>(steps);
@@ -178,18 +176,16 @@ bool is_mrc(const std::string& head) {
 std::unique_ptr<VolumeFile> open_mrc(const fs::path& path, const ReadOptions& options) {
     const std::string name = path.string(), head = head_of(path, kMrcBytes);
     if (head.size() < kMrcBytes)
-        throw Error(fmt::format("{}: truncated: {} bytes, an MRC header has {}", name, head.size(),
-                                kMrcBytes));
+        throw Error("{}: truncated: {} bytes, an MRC header has {}", name, head.size(), kMrcBytes);
     const bool swapped = !is_believable({head, false});
     const BinaryHeader h(head, swapped);
     Three sizes = three_at<std::int32_t>(h, 0), order = three_at<std::int32_t>(h, 64);
     if (!is_believable(h)) {
         const BinaryHeader as_is(head, false);
-        throw Error(fmt::format("{}: not MRC: {} x {} x {} values of mode {}, axes {} {} {}", name,
-                                as_is.at<std::int32_t>(0), as_is.at<std::int32_t>(4),
-                                as_is.at<std::int32_t>(8), as_is.at<std::int32_t>(12),
-                                as_is.at<std::int32_t>(64), as_is.at<std::int32_t>(68),
-                                as_is.at<std::int32_t>(72)));
+        throw Error("{}: not MRC: {} x {} x {} values of mode {}, axes {} {} {}", name,
+                    as_is.at<std::int32_t>(0), as_is.at<std::int32_t>(4), as_is.at<std::int32_t>(8),
+                    as_is.at<std::int32_t>(12), as_is.at<std::int32_t>(64),
+                    as_is.at<std::int32_t>(68), as_is.at<std::int32_t>(72));
     }
     if (order == Three{0, 0, 0})
         order = {1, 2, 3};
@@ -200,8 +196,7 @@ std::unique_ptr<VolumeFile> open_mrc(const fs::path& path, const ReadOptions& op
     layout.compression = is_gzip(path) ? Compression::deflate : Compression::none;
     const auto extended = h.at<std::int32_t>(92);
     if (extended < 0)
-        throw Error(
-            fmt::format("{}: an extended header of {} bytes, expected 0 or more", name, extended));
+        throw Error("{}: an extended header of {} bytes, expected 0 or more", name, extended);
     layout.skip = kMrcBytes + static_cast<std::uint64_t>(extended);
     take_mode(h, name, info, layout);
     layout.steps = steps_of_stack(h, sizes, name, info);

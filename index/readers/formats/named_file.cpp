@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <system_error>
-#include <utility>
 
 namespace isochron::index {
 namespace fs = std::filesystem;

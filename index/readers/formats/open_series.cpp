@@ -44,10 +44,9 @@ SeriesFile series_file(const KnownFile& file, const ReadOptions& options,
     if (format && !format->list)
         return {file.path, opener_of(*format), time};
     if (const std::string foreign = foreign_format_or_name(start); !foreign.empty())
-        throw Error(fmt::format("{}: {}", file.path.string(), foreign));
-    throw Error(fmt::format("{}: unknown format, expected one of {}, or raw values with --dims and "
-                            "--type",
-                            file.path.string(), known_extensions()));
+        throw Error("{}: {}", file.path.string(), foreign);
+    throw Error("{}: unknown format, expected one of {}, or raw values with --dims and --type",
+                file.path.string(), known_extensions());
 }
 
 /// The unit of time behind the number that differs: `t_10s.vti`.
@@ -75,9 +74,9 @@ std::vector<SeriesFile> timed_by_name(const std::vector<KnownFile>& files, ReadO
             options.time_unit = dates->unit;
         const auto wanted = times_in(*options.time_unit, dates->unit, dates->times);
         if (!wanted)
-            throw Error(fmt::format("--time-unit: {}, expected a unit with a date for the dates of "
-                                    "--times-from-names, as in `hours since 2000-01-01`",
-                                    *options.time_unit));
+            throw Error("--time-unit: {}, expected a unit with a date for the dates of "
+                        "--times-from-names, as in `hours since 2000-01-01`",
+                        *options.time_unit);
         times.assign(wanted->begin(), wanted->end());
     } else {
         times = times_in_names(names);
@@ -87,9 +86,9 @@ std::vector<SeriesFile> timed_by_name(const std::vector<KnownFile>& files, ReadO
     std::vector<SeriesFile> series;
     for (std::size_t i = 0; i < files.size(); ++i) {
         if (!times[i])
-            throw Error(fmt::format("{}: no number in its name, expected "
-                                    "one for --times-from-names, as in t_0030.vti",
-                                    names[i].string()));
+            throw Error(
+                "{}: no number in its name, expected one for --times-from-names, as in t_0030.vti",
+                names[i].string());
         series.push_back(series_file(files[i], options, times[i]));
     }
     std::ranges::stable_sort(series, {}, &SeriesFile::time);
@@ -138,8 +137,7 @@ ListedFiles without_missing_end(ListedFiles listed, const std::string& name,
 std::vector<SeriesFile> listed_in(const KnownFile& list, const ReadOptions& options,
                                   std::vector<std::string>& notes) {
     if (options.times_from_names)
-        throw Error(fmt::format("{}: gives the times itself, --times-from-names cannot",
-                                list.path.string()));
+        throw Error("{}: gives the times itself, --times-from-names cannot", list.path.string());
     file_bytes(list.path);
     std::vector<SeriesFile> series;
     std::vector<KnownFile> known;
@@ -177,10 +175,9 @@ std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, ReadOptio
     const auto list = std::ranges::find_if(
         files, [](const KnownFile& file) { return file.format && file.format->list; });
     if (list != files.end() && files.size() != 1)
-        throw Error(fmt::format("{}: names its files itself, and {} more {} given: give it alone, "
-                                "or leave it out",
-                                list->path.string(), files.size() - 1,
-                                files.size() == 2 ? "is" : "are"));
+        throw Error(
+            "{}: names its files itself, and {} more {} given: give it alone, or leave it out",
+            list->path.string(), files.size() - 1, files.size() == 2 ? "is" : "are");
     if (list != files.end())
         return listed_in(*list, options, notes);
     if (options.times_from_names)
@@ -235,9 +232,8 @@ std::unique_ptr<VolumeSeries> open_vector(const OpenStored& open, const std::str
     const std::string component = options.component.value_or("magnitude");
     const auto derived = derived_from_name(component);
     if (derived ? *derived == Derived::gradient || names.size() != 3 : component != "magnitude")
-        throw Error(fmt::format("--component {} of {}, expected magnitude{}", component,
-                                *options.array,
-                                names.size() == 3 ? ", vorticity or q-criterion" : ""));
+        throw Error("--component {} of {}, expected magnitude{}", component, *options.array,
+                    names.size() == 3 ? ", vorticity or q-criterion" : "");
     auto inputs = open_components(names, [&](const std::string& of_one) {
         ReadOptions of_input = options;
         of_input.array = of_one;
@@ -264,10 +260,9 @@ std::unique_ptr<VolumeSeries> open_computed(const OpenStored& open, const OpenSt
             inputs.push_back(open_stored_series(open, name, of_input));
             const SeriesInfo& first = inputs.front()->info();
             if (component && !first.array.ends_with(".0"))
-                throw Error(
-                    fmt::format("{}: --component {} of {}, a scalar, expected a vector of three "
-                                "components; --component gradient is for scalars",
-                                name, *options.component, first.array));
+                throw Error("{}: --component {} of {}, a scalar, expected a vector of three "
+                            "components; --component gradient is for scalars",
+                            name, *options.component, first.array);
         }
         return derived_series(std::move(inputs), *derived, "", options.value_unit);
     }

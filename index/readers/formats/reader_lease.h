@@ -4,14 +4,13 @@
 #include "index/error.h"
 #include "index/readers/process/reader_pool.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <variant>
@@ -81,10 +80,11 @@ class ReaderLease {
         }
     }
 
-    /// The next reply, which must be of this kind. @throws Error with the reader's message if not
+    /// The next reply, which must be of this kind. @throws Error with the reader's message if not, and
+    /// as ReaderProcess::reply
     template <class Kind>
-    Kind expect() {
-        ReaderReply reply = reader().reply();
+    Kind expect(const std::stop_token& stop = {}) {
+        ReaderReply reply = reader().reply(stop);
         if (auto* kind = std::get_if<Kind>(&reply))
             return std::move(*kind);
         const auto* refused = std::get_if<Refused>(&reply);
@@ -117,7 +117,7 @@ class ReaderLease {
     };
 
     [[noreturn]] void fail(const std::string& why) const {
-        throw Error(fmt::format("{}: cannot be read: {}", path_.string(), why));
+        throw Error("{}: cannot be read: {}", path_.string(), why);
     }
     void start(bool again);
 

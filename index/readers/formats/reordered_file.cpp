@@ -78,9 +78,7 @@ class StackedComponents final : public VolumeFile {
         plain.component.reset();
         file_ = open_stored(header, std::move(info), layout, plain);
         info_ = file_->info();
-        info_.array = chosen_.label();
-        info_.arrays = chosen_.offered;
-        info_.type = chosen_.value_type();
+        chosen_.describe(info_);
         info_.time_unit = time_unit;
         give_times(info_, timed, steps_);
     }
@@ -158,9 +156,7 @@ class AxisBetween final : public VolumeFile {
         info_.grid = info.grid;
         info_.times = info.times;
         info_.time_unit = info.time_unit;
-        info_.array = chosen_.label();
-        info_.arrays = chosen_.offered;
-        info_.type = chosen_.value_type();
+        chosen_.describe(info_);
         if (info_.times.empty())
             give_times(info_, timed, steps_);
         block_.resize(file_->info().step_bytes());

@@ -134,13 +134,12 @@ class StoredFile final : public VolumeFile {
         if (allow_surplus_ || (rest.bytes == 0 && rest.foreign == 0))
             return;
         const char* at_least = rest.bytes >= Rest::kMostCounted ? "at least " : "";
-        throw Error(
-            fmt::format("{}: {}{} bytes {}, expected none (--allow-surplus reads it)",
-                        layout_.data.string(), at_least, rest.bytes > 0 ? rest.bytes : rest.foreign,
-                        rest.bytes > 0 ? fmt::format("follow the values of the {} step{} that the "
-                                                     "header has",
-                                                     layout_.steps, layout_.steps == 1 ? "" : "s")
-                                       : "follow the end of the compressed data"));
+        throw Error("{}: {}{} bytes {}, expected none (--allow-surplus reads it)",
+                    layout_.data.string(), at_least, rest.bytes > 0 ? rest.bytes : rest.foreign,
+                    rest.bytes > 0 ? fmt::format("follow the values of the {} step{} that the "
+                                                 "header has",
+                                                 layout_.steps, layout_.steps == 1 ? "" : "s")
+                                   : "follow the end of the compressed data");
     }
 
     std::filesystem::path header_;
@@ -161,9 +160,7 @@ std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, Ser
     const std::string name = header.string();
     check_grid(info.grid, name);
     const ChosenScalar chosen = choose_scalar(std::span(&layout.array, 1), options, name);
-    info.arrays = chosen.offered;
-    info.array = chosen.label();
-    info.type = chosen.value_type();
+    chosen.describe(info);
     for (std::string& note : chosen.notes())
         info.notes.push_back(std::move(note));
     if (layout.half)
@@ -179,9 +176,9 @@ std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, Ser
     if (layout.parts.empty())
         expect_room(layout.data, layout.offset, layout.compression, whole);
     if (!layout.parts.empty() && (layout.ascii || whole % layout.parts.size() != 0))
-        throw Error(fmt::format("{}: {} bytes of values in {} files, expected {}", name, whole,
-                                layout.parts.size(),
-                                layout.ascii ? "no text in several" : "the same share in each"));
+        throw Error("{}: {} bytes of values in {} files, expected {}", name, whole,
+                    layout.parts.size(),
+                    layout.ascii ? "no text in several" : "the same share in each");
     for (const DataPart& part : layout.parts)
         expect_room(part.path, part.offset, layout.compression, whole / layout.parts.size());
     expect_few_steps(layout.steps, name);
@@ -206,30 +203,29 @@ void give_times(SeriesInfo& info, const StoredLayout& layout, std::size_t steps)
 void expect_few_steps(std::size_t steps, const std::string& file) {
     constexpr std::size_t kMost = std::size_t{1} << 20;
     if (steps > kMost)
-        throw Error(fmt::format("{}: {} steps, at most {} are supported", file, steps, kMost));
+        throw Error("{}: {} steps, at most {} are supported", file, steps, kMost);
     if (steps == 0)
-        throw Error(fmt::format("{}: no steps", file));
+        throw Error("{}: no steps", file);
 }
 
 void set_axes(Grid& grid, const glm::dmat3& steps, const std::string& file) {
     for (int axis = 0; axis < 3; ++axis) {
         const double length = glm::length(steps[axis]);
         if (!(length > 0) || !std::isfinite(length))
-            throw Error(fmt::format("{}: the spacing along axis {} is {}, expected a positive "
-                                    "number",
-                                    file, axis, length));
+            throw Error("{}: the spacing along axis {} is {}, expected a positive number", file,
+                        axis, length);
         grid.spacing[axis] = length;
         grid.direction[axis] = steps[axis] / length + 0.0; // turns -0 into 0, for display
     }
     if (std::abs(glm::determinant(grid.direction)) < 1e-6)
-        throw Error(fmt::format("{}: the three axes lie in a plane", file));
+        throw Error("{}: the three axes lie in a plane", file);
 }
 
 void check_grid(const Grid& grid, const std::string& file) {
     checked_vertices({grid.vertices[0], grid.vertices[1], grid.vertices[2]}, file);
     for (int axis = 0; axis < 3; ++axis)
         if (!std::isfinite(grid.origin[axis]))
-            throw Error(fmt::format("{}: the origin is not finite", file));
+            throw Error("{}: the origin is not finite", file);
 }
 
 void expect_measurable(const Grid& grid, const ReadOptions& options) {
@@ -237,15 +233,12 @@ void expect_measurable(const Grid& grid, const ReadOptions& options) {
     const auto text = [](const glm::dvec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); };
     for (int axis = 0; axis < 3; ++axis) {
         if (options.spacing && (!(grid.spacing[axis] > 0) || !std::isfinite(grid.spacing[axis])))
-            throw Error(
-                fmt::format("--spacing: ({}), expected positive numbers", text(*options.spacing)));
+            throw Error("--spacing: ({}), expected positive numbers", text(*options.spacing));
         if (options.spacing && !(grid.spacing[axis] * grid.vertices[axis] < kMost))
-            throw Error(fmt::format("--spacing: {}, expected a volume of less than {:g} along each "
-                                    "axis",
-                                    text(*options.spacing), kMost));
+            throw Error("--spacing: {}, expected a volume of less than {:g} along each axis",
+                        text(*options.spacing), kMost);
         if (options.origin && !(std::abs(grid.origin[axis]) < kMost))
-            throw Error(
-                fmt::format("--origin: {}, expected less than {:g}", text(*options.origin), kMost));
+            throw Error("--origin: {}, expected less than {:g}", text(*options.origin), kMost);
     }
 }
 
@@ -253,7 +246,7 @@ std::array<std::uint32_t, 3> checked_vertices(const std::array<std::int64_t, 3>&
                                               const std::string& file) {
     const std::string got = fmt::format("{}x{}x{}", sizes[0], sizes[1], sizes[2]);
     if (std::any_of(sizes.begin(), sizes.end(), [](std::int64_t n) { return n < 2; }))
-        throw Error(fmt::format("{}: {} vertices, needs at least 2 vertices per axis", file, got));
+        throw Error("{}: {} vertices, needs at least 2 vertices per axis", file, got);
     std::uint64_t cells = 1;
     constexpr std::int64_t kMostAlong = 65537;
     constexpr std::uint64_t kMost =
@@ -261,13 +254,13 @@ std::array<std::uint32_t, 3> checked_vertices(const std::array<std::int64_t, 3>&
     for (std::int64_t n : sizes) {
         const std::uint64_t along = static_cast<std::uint64_t>(n - 1);
         if (along > kMost / cells)
-            throw Error(fmt::format("{}: {} vertices make too many cells, at most {} are supported",
-                                    file, got, kMost));
+            throw Error("{}: {} vertices make too many cells, at most {} are supported", file, got,
+                        kMost);
         cells *= along;
     }
     if (std::ranges::max(sizes) > kMostAlong)
-        throw Error(fmt::format("{}: {} vertices, at most {} along an axis are supported", file,
-                                got, kMostAlong));
+        throw Error("{}: {} vertices, at most {} along an axis are supported", file, got,
+                    kMostAlong);
     return {static_cast<std::uint32_t>(sizes[0]), static_cast<std::uint32_t>(sizes[1]),
             static_cast<std::uint32_t>(sizes[2])};
 }

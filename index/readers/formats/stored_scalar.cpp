@@ -13,8 +13,6 @@
 #include <cstring>
 #include <limits>
 #include <map>
-#include <string_view>
-#include <type_traits>
 
 namespace isochron::index {
 namespace {
@@ -110,11 +108,10 @@ std::uint32_t component_of(const StoredArray& array, const ReadOptions& options,
             return 0;
         if (options.any_array)
             return ChosenScalar::kMagnitude;
-        throw Error(
-            fmt::format("{}: array {} has {} components, choose one with --component 0 to "
-                        "{} or --component magnitude{}",
-                        file, array.name, array.components, array.components - 1,
-                        array.maybe_steps ? "; --extra-axis-is-time reads them as steps" : ""));
+        throw Error("{}: array {} has {} components, choose one with --component 0 to {} or "
+                    "--component magnitude{}",
+                    file, array.name, array.components, array.components - 1,
+                    array.maybe_steps ? "; --extra-axis-is-time reads them as steps" : "");
     }
     const std::string& text = *options.component;
     if (text == "magnitude")
@@ -187,9 +184,8 @@ double exact(T stored, const std::string& file) {
         return value;
     if (value >= static_cast<double>(std::numeric_limits<T>::max()) ||
         static_cast<T>(value) != stored)
-        throw Error(fmt::format("{}: the value {} has no exact f64, expected integers of up to 53 "
-                                "bits",
-                                file, stored));
+        throw Error("{}: the value {} has no exact f64, expected integers of up to 53 bits", file,
+                    stored);
     return value;
 }
 
@@ -218,6 +214,12 @@ ValueType ChosenScalar::value_type() const {
     if (component == kMagnitude || array.on_cells || array.gaps)
         return fits_f32(stored) ? ValueType::f32 : ValueType::f64;
     return value_type_from_name(name_of(stored)).value_or(ValueType::f64);
+}
+
+void ChosenScalar::describe(SeriesInfo& info) const {
+    info.arrays = offered;
+    info.array = label();
+    info.type = value_type();
 }
 
 std::string ChosenScalar::label() const {
@@ -252,18 +254,16 @@ ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOption
     std::vector<std::string> offered = offered_of(arrays);
     const std::string list = listed(offered);
     if (list.empty() && !found)
-        throw Error(fmt::format("{}: holds no array{}", file,
-                                arrays.empty() ? "" : " of numbers that can be read"));
+        throw Error("{}: holds no array{}", file,
+                    arrays.empty() ? "" : " of numbers that can be read");
     if (open && !options.any_array)
-        throw Error(fmt::format("{}: several arrays, choose one with --array: {}; --all-arrays "
-                                "takes all of one shape{}",
-                                file, list, advice_on_families(arrays)));
+        throw Error("{}: several arrays, choose one with --array: {}; --all-arrays takes all of "
+                    "one shape{}",
+                    file, list, advice_on_families(arrays));
     if (!found)
-        throw Error(
-            fmt::format("{}: no array {}, expected one of: {}", file, *options.array, list));
+        throw Error("{}: no array {}, expected one of: {}", file, *options.array, list);
     if (!found->type)
-        throw Error(
-            fmt::format("{}: array {} does not hold numbers that can be read", file, found->name));
+        throw Error("{}: array {} does not hold numbers that can be read", file, found->name);
     return {*found, component_of(*found, options, file), std::move(offered)};
 }
 
@@ -293,7 +293,7 @@ void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, cons
                     to[i] = static_cast<T>(
                         exact(from[i * chosen.array.components + chosen.component], file));
             } else { // what value_type() never chooses
-                throw Error(fmt::format("{}: values of this type cannot be kept", file));
+                throw Error("{}: values of this type cannot be kept", file);
             }
             if constexpr (std::is_floating_point_v<T>)
                 if (!chosen.array.on_cells)

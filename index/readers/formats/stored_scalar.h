@@ -68,6 +68,8 @@ struct ChosenScalar {
     ValueType value_type() const;
     std::string label() const;              ///< `speed`, `velocity.2`, `velocity.magnitude`
     std::vector<std::string> notes() const; ///< what was done to the stored values
+    /// Says which array it is, of which ones, and of which type.
+    void describe(SeriesInfo& info) const;
 };
 
 /// Picks the array and component that `options` name; a single array needs no name. Point data win

@@ -3,10 +3,7 @@
 
 #include "index/error.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <sstream>
 
@@ -20,7 +17,7 @@ Number parse(std::string_view word, const std::string& key, const std::string& f
     Number number{};
     const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (failure != std::errc{} || end != word.data() + word.size())
-        throw Error(fmt::format("{}: {}: `{}` is not a number", file, key, excerpt(word)));
+        throw Error("{}: {}: `{}` is not a number", file, key, excerpt(word));
     return number;
 }
 

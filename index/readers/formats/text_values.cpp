@@ -4,8 +4,6 @@
 #include "index/error.h"
 #include "index/readers/formats/text_header.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -18,7 +16,7 @@ constexpr std::size_t kLongestWord = 1024; ///< longest number; zeros can make o
 constexpr std::uint64_t kPart = 1 << 18;
 
 Error not_a_value(std::string_view word, const std::string& file) {
-    return Error(fmt::format("{}: `{}` is not a value of the array's type", file, excerpt(word)));
+    return Error("{}: `{}` is not a value of the array's type", file, excerpt(word));
 }
 
 } // namespace
@@ -81,8 +79,7 @@ void TextValues::read(std::uint64_t first, std::span<std::byte> out) {
         for (std::byte* to = out.data(); position_ < last; ++position_) {
             const std::string_view word = next_word();
             if (word.empty())
-                throw Error(
-                    fmt::format("{}: truncated: {} values, expected {}", name_, position_, last));
+                throw Error("{}: truncated: {} values, expected {}", name_, position_, last);
             const bool wanted = position_ >= first;
             T value{};
             if (!parse_value(word, value))

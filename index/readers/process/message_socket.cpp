@@ -3,8 +3,6 @@
 
 #include "index/error.h"
 
-#include <fmt/format.h>
-
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/uio.h>
@@ -32,7 +30,7 @@ union Beside {
 std::pair<Descriptor, Descriptor> MessageSocket::pair() {
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-        throw Error(fmt::format("no pair of sockets: {}", std::strerror(errno)));
+        throw Error("no pair of sockets: {}", std::strerror(errno));
     return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
@@ -82,7 +80,7 @@ std::optional<Message> MessageSocket::receive(const Waiting& waiting) {
     if (!fill(std::as_writable_bytes(std::span(&length, 1)), message.attached, waiting))
         return std::nullopt;
     if (length > kLongest)
-        throw Error(fmt::format("a message of {} bytes, expected at most {}", length, kLongest));
+        throw Error("a message of {} bytes, expected at most {}", length, kLongest);
     while (message.bytes.size() < length) {
         const std::size_t had = message.bytes.size();
         message.bytes.resize(had + std::min<std::uint64_t>(kPiece, length - had));

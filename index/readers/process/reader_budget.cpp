@@ -29,7 +29,7 @@ void limit(pid_t reader, decltype(RLIMIT_DATA) resource, std::uint64_t most) {
     limits.rlim_cur = std::min<rlim_t>(most, limits.rlim_max);
     good = good && ::prlimit(reader, resource, &limits, nullptr) == 0;
     if (!good && errno != ESRCH)
-        throw Error(fmt::format("its reader cannot be limited: {}", std::strerror(errno)));
+        throw Error("its reader cannot be limited: {}", std::strerror(errno));
 }
 
 /// [bytes] of private writable memory of a process, which RLIMIT_DATA counts.

@@ -4,8 +4,6 @@
 #include "index/readers/process/message_bytes.h"
 #include "version_number.h"
 
-#include <fmt/format.h>
-
 #include <type_traits>
 
 namespace isochron::index {
@@ -117,7 +115,7 @@ Message message_of_kind(std::uint8_t number, MessageReader& bytes) {
         bytes.expect_end();
         return message;
     } else {
-        throw Error(fmt::format("a message of kind {}, expected 0 to {}", number, kKind - 1));
+        throw Error("a message of kind {}, expected 0 to {}", number, kKind - 1);
     }
 }
 

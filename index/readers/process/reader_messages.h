@@ -15,7 +15,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 

@@ -1,6 +1,7 @@
 // Starts a reader, exchanges messages with it, and finds how it ended.
 #include "index/readers/process/reader_process.h"
 
+#include "index/interrupted.h"
 #include "index/readers/process/reader_start.h"
 #include "index/system/module.h"
 
@@ -13,7 +14,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -62,9 +62,8 @@ void expect_unlocked(const std::filesystem::path& path) {
         return;
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file && ::flock(file.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-        throw Error(fmt::format("{}: cannot be read: another program is writing it, and has "
-                                "locked it",
-                                path.string()));
+        throw Error("{}: cannot be read: another program is writing it, and has locked it",
+                    path.string());
 }
 
 /// Waits for the end of a process that has closed its socket: it may end a moment after that.
@@ -108,7 +107,7 @@ ReaderProcess::ReaderProcess(std::string program, ReaderLimits limits, const Lef
     const int failure =
         ::posix_spawn(&process_, file.c_str(), &setup.files, &setup.attributes, arguments, environ);
     if (failure != 0)
-        throw Error(fmt::format("{}: cannot be started: {}", file, std::strerror(failure)));
+        throw Error("{}: cannot be started: {}", file, std::strerror(failure));
     socket_.emplace(std::move(ours));
     socket_->send(encoded(readable)); // where the reader has ended, the first reply says so
 }
@@ -169,9 +168,9 @@ void ReaderProcess::send(const ReaderRequest& request, int attached) {
         fail_as_it_ended();
 }
 
-ReaderReply ReaderProcess::reply() {
+ReaderReply ReaderProcess::reply(const std::stop_token& stop) {
     if (!ready_) {
-        const ReaderReply first = next_reply();
+        const ReaderReply first = next_reply(stop);
         if (const auto* refused = std::get_if<Refused>(&first))
             fail(refused->message);
         const auto* ready = std::get_if<Ready>(&first);
@@ -179,20 +178,28 @@ ReaderReply ReaderProcess::reply() {
             fail(fmt::format("{} is of another version, expected {}", program_, kReaderVersion));
         ready_ = true;
     }
-    return next_reply();
+    return next_reply(stop);
 }
 
-ReaderReply ReaderProcess::next_reply() {
+ReaderReply ReaderProcess::next_reply(const std::stop_token& stop) {
     watch_.begin(limits_.patience, budget_ ? budget_->time_of_bytes() : std::chrono::seconds{0});
+    const auto expect_wanted = [&] {
+        if (stop.stop_requested())
+            throw Interrupted("nobody waits for the reply any more");
+    };
     std::optional<ReaderReply> reply;
     try {
-        if (const auto message = socket_->receive([this] { look(); }))
+        expect_wanted();
+        if (const auto message = socket_->receive([&] {
+                expect_wanted();
+                look();
+            }))
             reply = reply_from(message->bytes);
     } catch (const ReaderEnded&) {
         throw;
     } catch (const Error& error) {
         fail(fmt::format("its reader sent {}", error.what()));
-    } catch (...) { // from `waiting_`: the reply will not be waited for
+    } catch (...) { // from `waiting_`, or stopped: the reply will not be waited for
         kill();
         throw;
     }

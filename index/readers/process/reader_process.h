@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include <sys/types.h>
@@ -70,9 +71,11 @@ class ReaderProcess {
     /// Sends a request, without waiting for the reply. @throws ReaderEnded
     void ask(const ReaderRequest& request);
     /// Waits for the reply to the oldest request without one.
+    /// @param stop ends the wait, and the reader
     /// @throws ReaderEnded also when the reader makes no progress or sends an invalid message; it
     ///         is killed then
-    ReaderReply reply();
+    /// @throws Interrupted when stopped
+    ReaderReply reply(const std::stop_token& stop = {});
 
     /// Shared memory of at least that many bytes, which the reader has, too. Its contents are lost
     /// at the next call. @throws ReaderEnded
@@ -80,7 +83,7 @@ class ReaderProcess {
 
   private:
     void send(const ReaderRequest& request, int attached = -1);
-    ReaderReply next_reply();
+    ReaderReply next_reply(const std::stop_token& stop);
     void limit(const ReaderRequest& request);
     void limit_after(const ReaderReply& reply);
     void look();

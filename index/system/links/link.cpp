@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
-#include <optional>
 
 namespace isochron::index {
 namespace {
@@ -107,10 +106,9 @@ std::string address_of(std::string_view name) {
         return std::string(name);
     std::string address(name.substr(0, name.find('#')));
     if (origin_of(address).find('@') != std::string_view::npos)
-        throw Error(fmt::format(
-            "{}//...: a link with a user's name or password is not opened: expected the "
-            "environment variable ISOCHRON_AUTHORIZATION=\"HOST Basic ...\"",
-            address.substr(0, address.find('/'))));
+        throw Error("{}//...: a link with a user's name or password is not opened: expected the "
+                    "environment variable ISOCHRON_AUTHORIZATION=\"HOST Basic ...\"",
+                    address.substr(0, address.find('/')));
     std::map<std::string, std::string> settings;
     std::string token;
     std::string_view rest = name.substr(std::min(name.size(), address.size() + 1));
@@ -130,8 +128,7 @@ std::string address_of(std::string_view name) {
             settings[key] = value;
     }
     if (!is_token(token))
-        throw Error(fmt::format(
-            "{}: the token behind # is none: expected the link as it was printed", address));
+        throw Error("{}: the token behind # is none: expected the link as it was printed", address);
     KnownLinks& links = known_links();
     const std::lock_guard lock(links.mutex);
     if (!token.empty())

@@ -205,9 +205,7 @@ class Content : public std::enable_shared_from_this<Content> {
         return std::move(*box->answer);
     }
 
-    [[noreturn]] void fail(const std::string& what) const {
-        throw Error(fmt::format("{}: {}", address_, what));
-    }
+    [[noreturn]] void fail(const std::string& what) const { throw Error("{}: {}", address_, what); }
 
     static std::string words_of_status(const HttpAnswer& answer) {
         switch (answer.status) {
@@ -583,10 +581,9 @@ std::string first_of_site(const std::string& page,
     if (!answer.failure.empty())
         content->fail(answer.failure);
     if (answer.status != 200)
-        throw Error(fmt::format(
-            "{}: no page of indices: {} (status {}); expected the link of a page of isochron "
-            "serve, or of an index",
-            page, list, answer.status));
+        throw Error("{}: no page of indices: {} (status {}); expected the link of a page of "
+                    "isochron serve, or of an index",
+                    page, list, answer.status);
     const auto json = nlohmann::json::parse(answer.body, nullptr, false);
     const auto files = json.is_object() ? json.find("files") : json.end();
     if (!json.is_object() || files == json.end() || !files->is_array() || files->empty() ||

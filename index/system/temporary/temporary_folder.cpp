@@ -3,8 +3,6 @@
 
 #include "index/error.h"
 
-#include <fmt/format.h>
-
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -25,15 +23,13 @@ TemporaryFolder::TemporaryFolder(const fs::path& beside, std::string contents)
         if (::mkdir(path.c_str(), 0700) == 0)
             path_ = std::move(path);
         else if (errno != EEXIST || tries == kMostTries)
-            throw Error(
-                fmt::format("{}: cannot be written: {}", beside.string(), std::strerror(errno)));
+            throw Error("{}: cannot be written: {}", beside.string(), std::strerror(errno));
     }
     lock_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     if (!lock_) {
         const int error = errno;
         ::rmdir(path_.c_str());
-        throw Error(
-            fmt::format("{}: cannot be written: {}", beside.string(), std::strerror(error)));
+        throw Error("{}: cannot be written: {}", beside.string(), std::strerror(error));
     }
     ::flock(lock_.number(), LOCK_EX | LOCK_NB);
     entry_ = LedgerEntry(path_, lock_.number(), contents_);

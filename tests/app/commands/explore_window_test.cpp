@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <functional>
@@ -131,6 +132,19 @@ TEST_F(ExploreWindow, HasTheSizeThatItHadLast) {
         EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
     }
     EXPECT_EQ(size_of(), (std::array{700, 500}));
+}
+
+TEST_F(ExploreWindow, OfAnEmulatedRoomGrowsWithTheDisplaysScaleAndFitsOnIt) {
+    screen_.set_dots_per_inch(120);
+    const auto program = explore_sized({"--emulate"});
+    const auto is_covered = [&](int y) {
+        return screen_.pixel(640, y) != std::array<int, 3>{0, 0, 0};
+    };
+    EXPECT_TRUE(test_support::eventually([&] { return is_covered(800); }))
+        << "720 pixels would be as at 96 dots per inch";
+    EXPECT_FALSE(is_covered(1023)) << "its lower end is on the screen";
+    program->signal(SIGTERM);
+    EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
 }
 
 TEST_F(ExploreWindow, OpensTheSameFilesWithAnotherArrayFromTheListOfAll) {

@@ -2,7 +2,10 @@
 // no setting changes nothing.
 #include "app/explore/link_view.h"
 
+#include "app/config/first_placement.h"
+#include "app/explore/link_tools.h"
 #include "index/system/links/link.h"
+#include "interaction/tools/clip_box.h"
 #include "stereo/screen.h"
 #include "tests/support/indexed.h"
 #include "tests/support/test_seed.h"
@@ -11,6 +14,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <regex>
@@ -51,6 +55,8 @@ TEST_F(LinkView, IsReadAsItWasWritten) {
     state.picked = 1;
     state.instant = index::Instant(1);
     state.clip = {true, {101, -19.5, 4}, {0, 0.6, -0.8}};
+    state.ghosts = {.earlier = 1, .later = 4, .every = 3, .opacity = 0.5f};
+    state.clip_box = {true, {0, 2.5, 1}, {18, 16, 13.25}};
     state.coloring = {.by = interaction::ColorBy::value, .map = "turbo", .range = {{-1, 2.5}}};
     state.coloring.array = file_.info().array;
     state.slices = {.planes = {{{103, -12, 6.5}, {0.6, 0, 0.8}}, {{1, 2, 3}, {1, 0, 0}, false}}};
@@ -73,6 +79,8 @@ TEST_F(LinkView, IsReadAsItWasWritten) {
     EXPECT_EQ(read.instant.step, 1u);
     EXPECT_EQ(read.clip.point, state.clip.point);
     EXPECT_NEAR(glm::distance(read.clip.normal, state.clip.normal), 0, 1e-9);
+    EXPECT_EQ(read.clip_box, state.clip_box);
+    EXPECT_EQ(read.ghosts, state.ghosts);
     EXPECT_EQ(read.coloring.map, "turbo");
     EXPECT_EQ(read.coloring.range, state.coloring.range);
     state.slices.planes.pop_back(); // a link holds what is seen
@@ -86,6 +94,43 @@ TEST_F(LinkView, IsReadAsItWasWritten) {
     };
     EXPECT_EQ(but_up(link_to("http://h/a.isochron", read, file_, kScreen)), but_up(link));
     EXPECT_NE(but_up(link), link);
+}
+
+TEST_F(LinkView, CutsAsThePageAndEarlierVersionsWroteIt) {
+    const interaction::ClipPlane oblique{true, {1, 2, 3}, {0, 0.6, 0.8}};
+    EXPECT_EQ(reread("http://h/c.isochron#planes=1/2/3/0/0.6/0.8").clip, oblique);
+    EXPECT_EQ(reread("http://h/d.isochron#plane=1,2,3,0,0.6,0.8").clip, oblique);
+    EXPECT_EQ(reread("http://h/e.isochron#clip=1,0.5").clip,
+              (interaction::ClipPlane{true, {100, -12, 3}, {0, 1, 0}}));
+    // What lies beside the data is nothing that a box may end at.
+    EXPECT_EQ(reread("http://h/f.isochron#box=-4,2.5,1,99,16,13.25").clip_box,
+              (interaction::ClipBox{true, {0, 2.5, 1}, {18, 16, 13.25}}));
+}
+
+TEST_F(LinkView, CutsByThePlanesOfAPageAsFarAsTheyAreOnePlaneAndABox) {
+    const auto is_cut = [&](const ExplorerState& state, const glm::dvec3& at) {
+        return std::ranges::any_of(cutting_planes(state, data_frame(file_.info())),
+                                   [&](const auto& plane) { return plane.beyond(at) > 0; });
+    };
+    const ExplorerState state =
+        reread("http://h/g.isochron#planes=104/0/0/-1/0/0,108/-12/10/0/0.6/0.8,0/-8.5/0/0/1/0,"
+               "115/0/0/1/0/0,117/0/0/1/0/0&box=0,0,2,18,16,14");
+    std::mt19937 random(test_seed());
+    std::uniform_real_distribution<double> x(100, 118), y(-20, -4), z(3, 17);
+    int cut = 0;
+    constexpr int kPoints = 2000;
+    for (int i = 0; i < kPoints; ++i) {
+        const glm::dvec3 at(x(random), y(random), z(random));
+        const bool wanted = at.x < 104 || at.y > -8.5 || at.x > 115 || at.z < 5 ||
+                            0.6 * (at.y + 12) + 0.8 * (at.z - 10) > 0;
+        EXPECT_EQ(is_cut(state, at), wanted) << at.x << ' ' << at.y << ' ' << at.z;
+        cut += wanted;
+    }
+    EXPECT_EQ(lost_of_link({{"planes", "1/2/3/1/0/0,1/2/3/0/0.6/0.8"}}, file_), "");
+    EXPECT_EQ(lost_of_link({{"planes", "1/2/3/1/1/0,1/2/3/1/0/0,1/2/3/0/1/1"}}, file_),
+              "the link has 2 oblique clip planes; the first is shown");
+    EXPECT_GT(cut, kPoints / 4);
+    EXPECT_LT(cut, kPoints);
 }
 
 TEST_F(LinkView, ShowsPointsWhereThePagesCameraSeesThem) {
@@ -120,7 +165,9 @@ TEST_F(LinkView, IgnoresWhatIsNoSetting) {
          {"isovalue=1e999&step=-1&array=7&view=1,2,3",
           "isovalue=nan&step=99999999999&surfaces=,/,&picked=5",
           "view=1,1,1,1,1,1&clip=7,2&colors=-1&opacity=abc", "view=nan,1,1,1,1,1&isovalue=0x10",
-          "%%%&&=&=;", "plane=1,2,3,0,0,0&up=0,0,0&range=2,1&map=none",
+          "%%%&&=&=;", "plane=1,2,3,0,0,0&up=0,0,0&range=2,1&map=none", "ghosts=5/0/1/0.5",
+          "ghosts=1/1/0/0.5", "ghosts=1/1/1.5/0.5", "ghosts=0/0/1/1", "ghosts=1/1",
+          "planes=1/2/3/0/0/0,a/b&box=0,0,0,1,1", "box=3,0,0,3,1,1", "box=20,0,0,30,1,1",
           "slices=1/2/3/0/0/0,1/2/3,a/b/c/d/e/f&alone=1"})
         EXPECT_EQ(
             reread("http://h/" + std::to_string(std::hash<std::string>()(words)) + "#" + words),

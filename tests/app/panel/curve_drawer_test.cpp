@@ -2,6 +2,7 @@
 #include "app/panel/parts/curve_drawer.h"
 
 #include "app/panel/parts/curve_plot.h"
+#include "app/scene/ticks.h"
 #include "index/measure/measures.h"
 #include "tests/app/panel/layer_fixture.h"
 #include "tests/support/indexed.h"
@@ -9,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -94,6 +96,31 @@ TEST_F(CurveDrawerTest, PlotsTheValuesAlongTheRulerAndMarksWhereItIsPressed) {
     EXPECT_NEAR(point.value, point.position.x + 1, 1e-6);
     EXPECT_TRUE(point.position.x > 0.5 && point.position.x < 3.5) << point.position.x;
     EXPECT_FALSE(pressed.instant) << "the ruler is no axis of time";
+}
+
+TEST_F(CurveDrawerTest, HasTwoNumbersOnItsAxisHoweverLowItIs) {
+    info_.length_unit.clear();
+    size_ = {636, 360};
+    for (const double apart : {0.0234, 17.0}) {
+        StepCurve area({.array = file_, .isovalue = 12}, index::measures().size(), kSteps);
+        for (std::uint32_t step = 0; step < kSteps; ++step)
+            area.set(step, std::vector<double>(index::measures().size(),
+                                               18.7 * apart + apart * step / (kSteps - 1)));
+        curves_.surfaces = {std::make_shared<const StepCurve>(area)};
+        for (int i = 0; i < 3; ++i)
+            frame();
+        std::ptrdiff_t numbers = 0;
+        for (const int most : {2, 3, 4, 6}) {
+            const Ticks ticks = nice_ticks(18.64 * apart, 19.76 * apart, most);
+            numbers = std::max(numbers, std::ranges::count_if(ticks.values, [&](double value) {
+                                   return place_of_text(*ImGui::GetDrawData(),
+                                                        *ImGui::GetIO().Fonts->Fonts.front(),
+                                                        tick_text(value, ticks.step))
+                                       .has_value();
+                               }));
+        }
+        EXPECT_GE(numbers, 2) << apart;
+    }
 }
 
 TEST_F(CurveDrawerTest, GoesWhereThePlotIsPressed) {

@@ -121,6 +121,10 @@ TEST_F(FilmLaneTest, IsNotThereWithoutKeys) {
             .has_value();
     };
     EXPECT_TRUE(says_film());
+    const auto words =
+        place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), "film 8 s");
+    const PanelBox row = layer_.layout().film;
+    EXPECT_NEAR(words->y, (row.low.y + row.high.y) / 2, 2) << "on one line with the keys";
     asked_.keys.clear();
     EXPECT_FALSE(says_film());
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -109,6 +110,26 @@ TEST_F(Lists, OfArraysComesFromTheDataFromItsKeyAndFromTheSearch) {
     strike(Key::down);
     EXPECT_EQ(strike(Key::enter).array, "rho");
     EXPECT_FALSE(layer_.pages().any());
+}
+
+TEST_F(Lists, OfArraysShowWholeWordsWhereTheTableHasRoomForThem) {
+    const std::vector<ListedArray> lines{
+        {"temperature", "40 x 40 x 40, 5 steps", "degrees_Celsius",
+         "271.023 to 304.186, 32.6 % missing", ""},
+        {"rho", "40 x 40 x 40, 5 steps", "", "101318.01 to 101332", ""}};
+    arrays_.lines = lines;
+    for (const glm::ivec2 size : {glm::ivec2(1280, 800), glm::ivec2(680, 480)}) {
+        size_ = size;
+        frame();
+        open_arrays();
+        frame();
+        for (const std::string& word :
+             {lines[0].name, lines[0].values, lines[0].unit, lines[0].grid, lines[1].values})
+            EXPECT_TRUE(
+                place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), word))
+                << word << " at " << size.x;
+        strike(Key::escape);
+    }
 }
 
 TEST_F(Lists, OfArraysLeadToTheOneThatIsChosen) {

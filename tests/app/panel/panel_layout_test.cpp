@@ -53,6 +53,19 @@ TEST(PanelLayout, FillsThePanelWithoutGapsOrOverlaps) {
         }
 }
 
+TEST(PanelLayout, LeavesRoomForThePictureWhereAllRowsAreOpen) {
+    for (const glm::vec2 size : {glm::vec2(636, 360), glm::vec2(640, 480), glm::vec2(559, 400),
+                                 glm::vec2(960, 540), glm::vec2(1280, 800)})
+        for (int rows = 0; rows < 4; ++rows)
+            EXPECT_TRUE(has_room_for_picture(
+                layout_in(PanelPlace::over, size, {.film = rows % 2 == 1, .curves = rows / 2 == 1})
+                    .picture,
+                size))
+                << size.x << ' ' << size.y << ' ' << rows;
+    EXPECT_FALSE(has_room_for_picture({{40, 36}, {640, 100}}, {640, 360}));
+    EXPECT_FALSE(has_room_for_picture({{300, 36}, {560, 300}}, {560, 360}));
+}
+
 /// What keys do at once, by the emulation that reads them.
 std::set<Action> actions_of(const KeyCommand& command) {
     interaction::DesktopEmulation emulation({});

@@ -14,6 +14,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -123,6 +124,23 @@ TEST(RangeText, HasAsManyDigitsAsTellItsEndsApart) {
     EXPECT_EQ(exact_range_text(low, high, info), "284.84042 to 289.36212 K");
     info.type = index::ValueType::f64;
     EXPECT_EQ(exact_range_text(low, high, info), "284.8404235839844 to 289.36212158203125 K");
+}
+
+TEST_F(PanelTest, SaysTheSizesOfABoxInTheSameDecimals) {
+    struct Row {
+        std::array<double, 3> lengths;
+        const char* words;
+    };
+    for (const Row& row :
+         {Row{{0.88562, 0.8856, 0.88569}, "0.886 x 0.886 x 0.886 m"},
+          Row{{20, 19.99998, 20}, "20 x 20 x 20 m"},
+          Row{{1.35, 1.35, 0.0894}, "1.350 x 1.350 x 0.089 m"}, Row{{63, 63, 20}, "63 x 63 x 20 m"},
+          Row{{1.5, 2, 3}, "1.5 x 2.0 x 3.0 m"},
+          Row{{1234.5, 12, 0.25}, "1234.50 x 12.00 x 0.25 m"}, Row{{0, 4, 4}, "0 x 4 x 4 m"},
+          Row{{0, 0, 0}, "0 x 0 x 0 m"}, Row{{2e7, 2e7, 1e-9}, "2e+07 x 2e+07 x 1e-09 m"},
+          Row{{3.26e-9, 3.26e-9, 3e-9}, "3.26e-09 x 3.26e-09 x 3e-09 m"}})
+        EXPECT_EQ(lengths_text(row.lengths, "m"), row.words);
+    EXPECT_EQ(lengths_text({1, 1, 1}, ""), "1 x 1 x 1");
 }
 
 TEST_F(PanelTest, SaysHowManyValuesAreMissing) {

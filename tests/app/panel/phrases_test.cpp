@@ -11,6 +11,7 @@
 #include <iostream>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace isochron::app {
@@ -20,7 +21,7 @@ struct Phrase {
     std::string typed, wanted;
     std::vector<std::string> controls; ///< any of them answers; empty: none does
 };
-/// @param name `phrases`: of newcomers; `phrases_held_out`: typed by users of other programs, and
+/// @param name `phrases`: of newcomers; `phrases_held_out` and `phrases_peers`: typed by users of other programs, and
 /// written before the names of controls were read
 std::vector<Phrase> phrases(const std::string& name) {
     std::ifstream file(test_support::source_root() + "/tests/app/panel/" + name + ".tsv");
@@ -52,12 +53,14 @@ class Phrases : public testing::TestWithParam<const char*> {};
 
 TEST_P(Phrases, FindTheirControlAmongTheFirstThreeLines) {
     constexpr std::size_t kFirst = 3;
-    constexpr double kFloor = 0.85, kMostWithout = 0.12;
+    // What nobody has looked at while the search was made is found less often.
+    const double kFloor = std::string_view(GetParam()) == "phrases_peers_held_out" ? 0.75 : 0.85;
+    constexpr double kMostWithout = 0.12;
     Searched session;
     const std::vector<SearchLine> lines = session.lines();
     std::size_t found = 0, without = 0, answered = 0;
     const std::vector<Phrase> all = phrases(GetParam());
-    ASSERT_GE(all.size(), 60u);
+    ASSERT_GE(all.size(), 37u);
     for (const Phrase& phrase : all) {
         const Ranking ranking = ranked(lines, phrase.typed);
         const std::size_t first = std::min(kFirst, ranking.lines.size());
@@ -96,7 +99,9 @@ TEST_P(Phrases, NameControlsThatHaveALine) {
             << phrase.typed;
 }
 
-INSTANTIATE_TEST_SUITE_P(Lists, Phrases, testing::Values("phrases", "phrases_held_out"));
+INSTANTIATE_TEST_SUITE_P(Lists, Phrases,
+                         testing::Values("phrases", "phrases_held_out", "phrases_peers",
+                                         "phrases_peers_held_out"));
 
 } // namespace
 } // namespace isochron::app

@@ -47,7 +47,8 @@ class Placement : public LayerTest, public testing::WithParamInterface<Screen> {
         std::vector<Over> over;
         for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
             const std::string name = window->Name;
-            const bool part = name == "###top" || name == "###column" || name == "###time";
+            const bool part = name == "###top" || name == "###column" || name == "###time" ||
+                              name == "###film" || name == "###curves";
             constexpr ImGuiWindowFlags kAbove =
                 ImGuiWindowFlags_ChildWindow | ImGuiWindowFlags_Tooltip | ImGuiWindowFlags_Popup;
             if (!window->Active || window->Hidden || part || name.starts_with("Debug") ||
@@ -160,6 +161,39 @@ TEST_P(Placement, NothingOverlapsInAHundredStates) {
                 ++states;
             }
     EXPECT_GE(states, 100);
+}
+
+TEST_P(Placement, NothingOverlapsWhereRowsAreOpenAndStoriesAreTold) {
+    interaction::KeyFrame first, second;
+    first.name = "Before";
+    first.text = "Warm air lies over the sea. It comes from the left, and is held back by the "
+                 "hills, which are higher than the layer is deep.";
+    second.time = 4;
+    second.text = first.text;
+    for (int way = 0; way < 36; ++way) {
+        const bool film = way % 3 > 0, told = way % 3 == 2, curves = way / 3 % 2 == 1;
+        const bool tools = way / 6 % 2 == 1;
+        const int said = way / 12;
+        asked_.keys.clear();
+        if (film)
+            asked_.keys = {first, second};
+        asked_.story = told ? 1 : 0;
+        asked_.curves.shown = curves;
+        asked_.clip = {tools, {1, 2, 3}, {0, 0, 1}};
+        asked_.mark = {};
+        if (tools)
+            asked_.mark.point = interaction::MarkedPoint{{1.5, 2.5, 3.5}, {}, 12.25};
+        notes_ = {.messages = notes_.messages + (said > 0)};
+        const std::array<PastMessage, 1> past{{"14:06:10", "saved /home/somebody/isochron_1.png"}};
+        if (said > 0)
+            notes_.past = past;
+        if (said > 1)
+            notes_.standing = "indexing: step 12 of 64, 3 minutes left";
+        frame();
+        expect_apart(fmt::format("film {}, story {}, curves {}, tools {}, said {}", film, told,
+                                 curves, tools, said));
+        notes_.past = {};
+    }
 }
 
 TEST_P(Placement, TheChipAndTheCubeStayInTheCornersThatWordsOfThePictureAvoid) {

@@ -171,6 +171,24 @@ TEST(Ranked, AllWordsInAnyOrderCaseSpellingAndWithATypo) {
         EXPECT_EQ(first(session, text).name, name) << text;
 }
 
+TEST(SearchLines, DoNotSayTheirValueTwice) {
+    Searched session;
+    for (const SearchLine& line : session.lines())
+        if (line.value.size() > 4)
+            EXPECT_EQ(line.words.find(line.value), std::string::npos) << line.words;
+}
+
+TEST(Ranked, KnowsWordsOfOtherProgramsAndPassesOverThoseThatNoneHas) {
+    Searched session;
+    for (const auto& [typed, name] : {std::pair{"delete fiducial", "remove_made"},
+                                      {"xyzzy play", "play"},
+                                      {"turn off the legend", "legend"},
+                                      {"turn y 90", "turn"},
+                                      {"ruler", "ruler_tool"},
+                                      {"previous keyframe", "previous_key"}})
+        EXPECT_EQ(first(session, typed).name, name) << typed;
+}
+
 TEST(Ranked, OffersTheNearestByLettersWhereNoWordIsFound) {
     Searched session;
     const std::vector<SearchLine> lines = session.lines();
@@ -184,8 +202,9 @@ TEST(Ranked, OffersTheNearestByLettersWhereNoWordIsFound) {
         const Ranking found = ranked(lines, text);
         const auto end =
             found.lines.begin() + std::min<long>(3, found.lines.end() - found.lines.begin());
-        EXPECT_TRUE(std::any_of(found.lines.begin(), end,
-                                [&](const SearchLine* line) { return line->name.starts_with(name); }))
+        EXPECT_TRUE(
+            std::any_of(found.lines.begin(), end,
+                        [&](const SearchLine* line) { return line->name.starts_with(name); }))
             << text << ": " << found.lines.front()->name;
     }
 }

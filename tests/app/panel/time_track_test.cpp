@@ -56,6 +56,19 @@ class TimeTrack : public LayerTest {
                 places.push_back(one.Min.x);
         return places;
     }
+    /// Where the track is open between two steps that are held.
+    std::ptrdiff_t openings() {
+        return std::ranges::count_if(rectangles(), [](const ImRect& one) {
+            return one.GetWidth() == 4.0f && one.GetHeight() == kTrackHeight;
+        });
+    }
+    void point_at_word(const std::string& word) {
+        frame();
+        const auto at =
+            place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), word);
+        ASSERT_TRUE(at) << word;
+        point({at->x, at->y});
+    }
     bool says(const std::string& words) {
         frame();
         frame();
@@ -118,6 +131,7 @@ TEST_F(TimeTrack, IsOpenAtGapsAndTheyAreSaidWhileTheyAreHeld) {
     asked_.instant = index::Instant(11);
     EXPECT_FALSE(says(held)) << "all steps are held";
     EXPECT_TRUE(says("step 12 of 20"));
+    EXPECT_EQ(openings(), 1) << "also where steps are held";
     asked_.between = BetweenSteps::blend;
     EXPECT_TRUE(says(held));
     EXPECT_TRUE(says("gap: 12 to 13"));
@@ -137,6 +151,26 @@ TEST_F(TimeTrack, IsOpenAtGapsAndTheyAreSaidWhileTheyAreHeld) {
     EXPECT_TRUE(says("between steps 12 and 13"));
     asked_.instant = {10, 0};
     EXPECT_FALSE(says(held));
+}
+
+TEST_F(TimeTrack, TheDataSayWhereNumbersOfFilesAreMissing) {
+    EXPECT_FALSE(says("gaps"));
+    gaps_ = {1};
+    info_.missing_after = {1};
+    EXPECT_TRUE(says("1: after step 2"));
+    point_at_word("1: after step 2");
+    EXPECT_TRUE(says("numbers are missing in the names of the files:"));
+    gaps_ = {1, 4, 8, 13};
+    info_.missing_after = {};
+    EXPECT_TRUE(says("4: after steps 2, 5, 9 ..."));
+    EXPECT_EQ(openings(), 4);
+    point_at_word("4: after steps 2, 5, 9 ...");
+    EXPECT_TRUE(says("some steps are more than three times as far apart as usual:"));
+    info_.times.resize(10'000); // narrower than a pixel each
+    gaps_.resize(5'000);
+    std::iota(gaps_.begin(), gaps_.end(), 0u);
+    frame();
+    EXPECT_TRUE(says("5000: after steps 1, 2, 3 ..."));
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // What a newcomer is offered: the tour, which can be left at any point, and the session before.
+#include "app/panel/panel_words.h"
 #include "tests/app/panel/drawn_text.h"
 #include "tests/app/panel/layer_fixture.h"
 
@@ -170,6 +171,31 @@ TEST_F(TourTest, EscapeLeavesWhatIsOpenOverThePictureBeforeItReachesTheSession) 
         EXPECT_FALSE(is_open(window));
         EXPECT_TRUE(reaches()) << "the next one is the tool's";
     }
+}
+
+TEST_F(TourTest, NoLineOfACardIsALoneWord) {
+    frame();
+    for (const char* const words :
+         {"You look at the room from outside; each wall shows what its viewer's left eye sees.",
+          "Hold C: drag to circle round the room, middle drag to move it, wheel to come nearer.",
+          "Right drag turns the viewer's head, W A S D walk, left drag turns the data."}) {
+        const float whole = ImGui::CalcTextSize(words).x;
+        int narrowed = 0;
+        for (float width = 0.55f * whole; width < whole + 8; width += 4) {
+            const float narrow = width_without_widow(words, width);
+            EXPECT_EQ(ImGui::CalcTextSize(words, nullptr, false, narrow).y,
+                      ImGui::CalcTextSize(words, nullptr, false, width).y)
+                << words << " at " << width;
+            EXPECT_LE(narrow, width);
+            narrowed += narrow < width;
+            // As wide as all but the last word: that one would stand alone.
+            if (width > whole - 20 && width < whole - 4)
+                EXPECT_LT(narrow, width) << words;
+        }
+        EXPECT_GT(narrowed, 0);
+        EXPECT_EQ(width_without_widow(words, whole + 8), whole + 8);
+    }
+    EXPECT_EQ(width_without_widow("Incomprehensibilities", 40), 40) << "one word";
 }
 
 TEST_F(TourTest, AskedForItsNameASessionGetsWhatIsTyped) {

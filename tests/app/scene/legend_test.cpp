@@ -1,10 +1,12 @@
 // The legend fits into the picture, and its colors and numbers belong together.
 #include "app/scene/font.h"
 #include "app/scene/legend.h"
+#include "app/scene/orientation.h"
 #include "app/scene/ticks.h"
 
 #include "index/surface/cell_colors.h"
 #include "render/gl/srgb.h"
+#include "stereo/screen.h"
 #include "tests/support/drawing/gl_test.h"
 
 #include <cmath>
@@ -89,6 +91,51 @@ TEST_P(LegendTest, IsNotNeededForOneSurfaceAndListsSeveral) {
             .empty());
 }
 
+TEST_P(LegendTest, HasShorterBarsWhereSomethingLiesAbove) {
+    const Legend legend = of_temperature();
+    const glm::ivec2 picture(600, 272);
+    const auto top_of = [&](float highest) {
+        float top = 0;
+        for (const ScreenQuad& quad : legend_quads(legend, text_, picture, 15.0f / 272, highest))
+            top = std::max(top, quad.at.y + quad.high.y);
+        return top;
+    };
+    const float whole = top_of(0);
+    EXPECT_GT(whole, 180);
+    EXPECT_EQ(top_of(260), whole) << "it has room";
+    for (const float highest : {174.0f, 150.0f, 120.0f}) {
+        EXPECT_LE(top_of(highest), highest);
+        EXPECT_GT(top_of(highest), highest - 30);
+    }
+    EXPECT_GT(top_of(20), 80) << "no bar is shorter than its numbers";
+}
+
+TEST_P(LegendTest, AxesInTheOtherCornerEndBelowWhatLiesAboveThem) {
+    stereo::Screen screen;
+    screen.lower_left = {-0.5f, -0.1f, -1.2f};
+    screen.upper_left = {-0.5f, 0.1f, -1.2f};
+    screen.upper_right = {0.5f, 0.1f, -1.2f};
+    screen.carried_by_head = true;
+    const render::View view = stereo::view_of(screen, {{0, 1.6f, 0}, {1, 0, 0, 0}},
+                                              stereo::Eye::center, 0, 0.05f, 50, {600, 136});
+    const interaction::Similarity ahead{{0, 1.6, -2}, {1, 0, 0, 0}, 0.1};
+    index::SeriesInfo info;
+    info.grid.vertices = {9, 9, 9};
+    for (const float highest : {0.0f, 120.0f, 98.0f, 66.0f, 50.0f}) {
+        const Orientation shown =
+            orientation_in(view, ahead, info, text_, {}, 15.0f / 136, highest);
+        EXPECT_EQ(shown.lines.empty(), highest == 50) << highest;
+        float top = 0;
+        for (const ScreenQuad& quad : shown.quads)
+            top = std::max(top, quad.at.y + quad.high.y);
+        EXPECT_GT(top, 20) << "the scale bar stays";
+        if (highest > 0)
+            EXPECT_LE(top, highest);
+        else
+            EXPECT_GT(top, 98);
+    }
+}
+
 TEST_P(LegendTest, ListsGhostsByTimeAlsoOfOneSurface) {
     const std::vector<interaction::Isosurface> one(1);
     Legend legend{.surfaces = one, .value_unit = "K", .scales = {}};
@@ -119,6 +166,24 @@ TEST_P(LegendTest, SaysWhichArrayTheIsovaluesAreOfWhereColorsAreAnothers) {
     EXPECT_EQ(legend_quads(legend, text_, {1000, 1000}).size(),
               legend_quads({.surfaces = two, .value_unit = "K", .scales = {}}, text_, {1000, 1000})
                   .size());
+}
+
+TEST_P(LegendTest, NamesTheArrayOfEachSurfaceWhereSeveralArraysHaveSome) {
+    const std::vector<interaction::Isosurface> one{{292.5, {1, 0, 0}, 1}};
+    Legend legend{.surfaces = one, .value_unit = "K", .scales = {}};
+    legend.array = "heat";
+    legend.further = {{glm::vec3(0, 0, 1), "wind 7.7 m/s"}};
+    // Letters and their halos, a patch and its rim in each of two lines.
+    EXPECT_EQ(legend_quads(legend, text_, {640, 480}).size(),
+              2 * std::string("heat 292.5 Kwind 7.7 m/s").size() + 4);
+    legend.scales = of_temperature().scales;
+    legend.colored = true; // without the patch, and no line with the array alone
+    const auto scaled = legend_quads(legend, text_, {1000, 1000}).size();
+    legend.further.clear();
+    legend.surfaces = {};
+    legend.array.clear();
+    const auto scale = legend_quads(legend, text_, {1000, 1000}).size();
+    EXPECT_EQ(scaled - scale, 2 * std::string("heat 292.5 Kwind 7.7 m/s").size() + 2);
 }
 
 TEST(ColorScales, GoByLogarithmsWhereValuesAreAboveZero) {

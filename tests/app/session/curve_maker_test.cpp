@@ -57,7 +57,6 @@ class CurveMakerTest : public testing::Test {
         WantedCurves wanted;
         wanted.subjects = std::move(subjects);
         wanted.now = now;
-        wanted.rest = true;
         return wanted;
     }
 
@@ -76,17 +75,6 @@ TEST_F(CurveMakerTest, BeginsWithTheShownStepAndTheStepsAtHand) {
     const StepCurvePtr curve = maker.curves().at(0);
     EXPECT_EQ(curve->left, 0u);
     EXPECT_EQ(curve->values[0][3], 4.0);
-}
-
-TEST_F(CurveMakerTest, MeasuresTheShownStepAloneIfNoMoreIsWanted) {
-    CurveMaker maker(fake());
-    WantedCurves wanted = all_of({surface(1)}, 4);
-    wanted.rest = false;
-    maker.update(wanted);
-    maker.finish();
-    EXPECT_THAT(steps(), ElementsAre(4));
-    EXPECT_EQ(maker.curves().at(0)->left, kSteps - 1);
-    EXPECT_TRUE(std::isnan(maker.curves().at(0)->values[0][3]));
 }
 
 TEST_F(CurveMakerTest, BeginsNothingWhileThePictureComesFirst) {

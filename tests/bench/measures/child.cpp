@@ -3,8 +3,6 @@
 
 #include "index/error.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -51,7 +49,7 @@ class Child {
     explicit Child(const std::function<std::string()>& work) {
         std::array<int, 2> ends{};
         if (pipe(ends.data()) != 0)
-            throw index::Error(fmt::format("no pipe to a child process: {}", std::strerror(errno)));
+            throw index::Error("no pipe to a child process: {}", std::strerror(errno));
         std::fflush(nullptr); // else both processes would print what is still buffered
         process_ = fork();
         if (process_ == 0) {
@@ -62,7 +60,7 @@ class Child {
         in_ = ends[0];
         if (process_ < 0) {
             close(in_);
-            throw index::Error(fmt::format("no child process: {}", std::strerror(errno)));
+            throw index::Error("no child process: {}", std::strerror(errno));
         }
     }
     ~Child() {
@@ -90,7 +88,7 @@ class Child {
             if (count > 0)
                 all.append(part.data(), static_cast<std::size_t>(count));
             else if (errno != EINTR)
-                throw index::Error(fmt::format("a child process: {}", std::strerror(errno)));
+                throw index::Error("a child process: {}", std::strerror(errno));
         }
     }
 
@@ -116,7 +114,7 @@ std::string in_child(const std::function<std::string()>& work, const app::Cancel
     const int status = child.wait();
     signals.check();
     if (WIFSIGNALED(status))
-        throw index::Error(fmt::format("a child process ended with signal {}", WTERMSIG(status)));
+        throw index::Error("a child process ended with signal {}", WTERMSIG(status));
     if (WEXITSTATUS(status) != 0)
         throw index::Error(answer);
     return answer;

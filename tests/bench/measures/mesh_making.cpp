@@ -5,8 +5,6 @@
 #include "tests/bench/measures/timing.h"
 #include "tests/bench/rivals/flying_edges.h"
 
-#include <fmt/format.h>
-
 #include <array>
 
 namespace isochron::bench {
@@ -23,8 +21,8 @@ MeshMaking measure_mesh_making(const index::StepValues& values, const index::Que
                      1, 9);
     const std::size_t triangles = mesh.triangles.size() / 3;
     if (theirs.triangles != triangles)
-        throw index::Error(fmt::format("flying edges make {} triangles, the mesh has {}",
-                                       theirs.triangles, triangles));
+        throw index::Error("flying edges make {} triangles, the mesh has {}", theirs.triangles,
+                           triangles);
     return {.seconds = seconds[0], .seconds_of_vtk = seconds[1], .triangles = triangles};
 }
 

@@ -3,8 +3,6 @@
 
 #include "index/error.h"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <stdlib.h>
 #include <string>
@@ -17,7 +15,7 @@ class WorkFolder {
     explicit WorkFolder(const std::filesystem::path& parent) {
         std::string pattern = (parent / "isochron_bench_XXXXXX").string();
         if (!mkdtemp(pattern.data()))
-            throw index::Error(fmt::format("{}: no folder can be made in it", parent.string()));
+            throw index::Error("{}: no folder can be made in it", parent.string());
         path_ = pattern;
     }
     ~WorkFolder() {

@@ -8,8 +8,6 @@
 #include "stereo/context/gl_context.h"
 #include "tests/bench/measures/timing.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -58,8 +56,8 @@ class Pictures {
             if (frame.final && frame.shown && frame.shown->instant == at)
                 return session_.outputs().display().read_eye(stereo::Eye::center);
         }
-        throw index::Error(fmt::format("step {} + {}: no final picture after {} frames", at.step,
-                                       at.fraction, kMostFrames));
+        throw index::Error("step {} + {}: no final picture after {} frames", at.step, at.fraction,
+                           kMostFrames);
     }
 
   private:
@@ -86,8 +84,8 @@ StepJumps jumps_at_steps(const std::shared_ptr<const index::IndexFile>& file,
     constexpr double kFrameSeconds = 1.0 / 60, kSlower = 10;
     const std::size_t steps = file->info().steps();
     if (steps < 3)
-        throw index::Error(fmt::format("{}: {} steps, expected 3 or more to play over one of them",
-                                       file->name(), steps));
+        throw index::Error("{}: {} steps, expected 3 or more to play over one of them",
+                           file->name(), steps);
     StepJumps jumps;
     jumps.frames_of_step =
         kSlower * interaction::kRoundSeconds / kFrameSeconds / static_cast<double>(steps);

@@ -116,7 +116,7 @@ Results results_from_text(const std::string& text, const std::string& name, cons
             results.rows.push_back(record_from_json<OwnRow>(row));
         return results;
     } catch (const json::exception& error) {
-        throw index::Error(fmt::format("{}: no results of `{}`: {}", name, command, error.what()));
+        throw index::Error("{}: no results of `{}`: {}", name, command, error.what());
     }
 }
 

@@ -1,5 +1,7 @@
 // Stories: files of key frames with texts. They hold views and texts, and are checked before any of it is shown.
 
+import { MOST_GHOSTS, WIDEST_GHOSTS, type GhostSettings } from "../view/ghosts";
+
 /** Where something is in the room of a key: +Y up, meters. */
 export interface Pose {
   position: [number, number, number];
@@ -11,6 +13,23 @@ export interface Similarity {
   place: [number, number, number];
   turn: [number, number, number, number];
   scale: number;
+}
+
+/** How values are colored; an empty array is the first one, or of slices that of the surfaces. */
+export interface Coloring {
+  by: string;
+  map: string;
+  array: string;
+  range?: [number, number];
+}
+/** Slices that are seen: of each plane a point and its unit normal, physical space. */
+export interface KeySlices {
+  planes: number[][];
+  /** The plane that is moved, among these. */
+  picked: number;
+  coloring?: Coloring;
+  isolines: boolean;
+  alone: boolean;
 }
 
 /** A key frame, as far as the page shows it. What it does not say stays as it is. */
@@ -25,9 +44,14 @@ export interface Key {
   surfaces?: { isovalue: number; color: string; opacity: number }[];
   picked?: number;
   isovalue?: number;
-  coloring?: { by: string; map: string; array: string; range?: [number, number] };
+  coloring?: Coloring;
   background?: string;
-  clip?: { shown: boolean; point: [number, number, number]; normal: [number, number, number] };
+  /** A point on the plane and its normal towards what is cut away; empty: nothing is cut. */
+  clip?: number[];
+  /** Low and high corner of the box as indices of vertices; empty: there is none. */
+  box?: number[];
+  slices?: KeySlices;
+  ghosts?: GhostSettings;
   name: string;
   text: string;
   /** What the text is about, physical space. */
@@ -43,6 +67,7 @@ const DEEPEST = 16;
 const LONGEST_FILM = 3600; // seconds
 const SHORTEST_MOVE = 1 / 1024; // seconds
 const MOST_SURFACES = 8;
+const MOST_SLICES = 3;
 const MOST_FRACTION = 65535;
 
 /** A value of a file, with its name for messages. */
@@ -102,6 +127,38 @@ class Read {
   }
 }
 
+/** A point and a unit normal. */
+const planeOf = (of: Read): number[] => [...of.at("point").numbers<number[]>(3), ...of.at("normal").unit<number[]>(3)];
+
+const coloringOf = (of_coloring: Read): Coloring => ({
+  by: of_coloring.at("by").text(LONGEST_NAME),
+  map: of_coloring.at("map").text(LONGEST_NAME),
+  array: of_coloring.find("array")?.text(LARGEST_STORY) ?? "",
+  range: of(of_coloring.find("range"), (range) => {
+    const ends = range.numbers<[number, number]>(2);
+    return ends[0] < ends[1] ? ends : range.fail("two ascending numbers");
+  }),
+});
+
+function slicesOf(slices: Read): KeySlices {
+  const planes = slices.at("planes").list(0, MOST_SLICES).map((each) => ({ plane: planeOf(each), shown: each.find("shown")?.flag() ?? true }));
+  const picked = slices.find("picked")?.natural(MOST_SLICES - 1) ?? 0;
+  return {
+    planes: planes.flatMap(({ plane, shown }) => (shown ? [plane] : [])),
+    picked: planes.slice(0, picked).filter(({ shown }) => shown).length,
+    coloring: of(slices.find("coloring"), coloringOf),
+    isolines: slices.find("isolines")?.flag() ?? true,
+    alone: slices.find("alone")?.flag() ?? false,
+  };
+}
+
+/** A box whose low corner is lower along each axis; empty: it is not shown. */
+function boxOf(box: Read): number[] {
+  const [low, high] = [box.at("low").numbers<number[]>(3), box.at("high").numbers<number[]>(3)];
+  if (!box.at("shown").flag()) return [];
+  return low.every((n, axis) => n < high[axis]!) ? [...low, ...high] : box.at("high").fail("more than low along each axis");
+}
+
 const of = <T>(found: Read | undefined, read: (found: Read) => T): T | undefined => (found ? read(found) : undefined);
 
 const colorOf = (of: Read): string =>
@@ -130,20 +187,19 @@ function keyOf(of_key: Read): Key {
     ),
     picked: find("picked")?.natural(MOST_SURFACES - 1),
     isovalue: find("isovalue")?.number(),
-    coloring: of(find("coloring"), (coloring) => ({
-      by: coloring.at("by").text(LONGEST_NAME),
-      map: coloring.at("map").text(LONGEST_NAME),
-      array: coloring.find("array")?.text(LARGEST_STORY) ?? "",
-      range: of(coloring.find("range"), (range) => {
-        const ends = range.numbers<[number, number]>(2);
-        return ends[0] < ends[1] ? ends : range.fail("two ascending numbers");
-      }),
-    })),
+    coloring: of(find("coloring"), coloringOf),
     background: find("look")?.at("background").text(LONGEST_NAME),
-    clip: of(find("clip"), (clip) => ({
-      shown: clip.at("shown").flag(),
-      point: clip.at("point").numbers<[number, number, number]>(3),
-      normal: clip.at("normal").unit<[number, number, number]>(3),
+    clip: of(find("clip"), (clip) => {
+      const plane = planeOf(clip);
+      return clip.at("shown").flag() ? plane : [];
+    }),
+    box: of(find("clip_box"), boxOf),
+    slices: of(find("slices"), slicesOf),
+    ghosts: of(find("ghosts"), (ghosts) => ({
+      earlier: ghosts.at("earlier").natural(MOST_GHOSTS),
+      later: ghosts.at("later").natural(MOST_GHOSTS),
+      every: Math.max(1, ghosts.at("every").natural(WIDEST_GHOSTS)),
+      opacity: ghosts.at("opacity").number(0, 1),
     })),
     name: find("name")?.text(LONGEST_NAME) ?? "",
     text: find("text")?.text(LONGEST_TEXT) ?? "",
@@ -186,9 +242,9 @@ export function storyOf(text: string, name: string): Key[] {
 
 /** What of a story the data do not have, in one line; empty: nothing. */
 export function misfit(keys: readonly Key[], steps: number, hasArray: (name: string) => boolean): string {
-  for (const [i, { step, array, coloring }] of keys.entries()) {
+  for (const [i, { step, array, coloring, slices }] of keys.entries()) {
     if (step !== undefined && step >= steps) return `key ${i + 1}: step: expected 0 to ${steps - 1}, got ${step}`;
-    for (const name of [array, coloring?.by === "value" ? coloring.array : undefined])
+    for (const name of [array, coloring?.by === "value" ? coloring.array : undefined, slices?.coloring?.array])
       if (name !== undefined && !hasArray(name)) return `key ${i + 1}: the index has no array ${JSON.stringify(name)}`;
   }
   return "";

@@ -7,14 +7,23 @@ import type { Info } from "../reader/index_file";
 import type { Key } from "../story/story";
 import { STORY_MOVE, Way, type Sight } from "../story/way";
 import { Headset, type HeadsetWishes } from "./headset";
+import { edgesOf, facesOf, outlineOf, type Box, type Plane } from "./planes";
 import { Slices, type SliceLook } from "./slices";
 import { Ticks } from "./ticks";
 
 /** Camera: place and target in one list of numbers, for links. */
 export type View = [number, number, number, number, number, number];
-/** What a clip plane cuts away: beyond a share of an axis of the array, or of a plane among the data. */
-export type Cut = { axis: number; share: number } | { point: readonly number[]; normal: readonly number[] };
+/** Colors of the outlines of what cuts surfaces. */
+const CUT = 0xff9e52;
 const UP = new THREE.Vector3(0, 0, 1);
+
+function geometryOf(found: Found): THREE.BufferGeometry {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(found.points, 3));
+  geometry.setAttribute("normal", new THREE.BufferAttribute(found.normals, 3));
+  geometry.setIndex(new THREE.BufferAttribute(found.triangles, 1));
+  return geometry;
+}
 
 export class Scene {
   private readonly renderer: THREE.WebGLRenderer;
@@ -27,14 +36,15 @@ export class Scene {
   private way: { way: Way; began: number | null } | null = null;
   private inside: Headset | null = null;
   private readonly surfaces: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>[] = [];
+  private readonly ghostMeshes = new Map<Found, THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>>();
   private readonly slices = new Slices();
   private box: THREE.LineSegments | null = null;
   private wanted = false;
   private looks: readonly Surface[] = [];
-  private cuts = false;
-  /** The clip plane among the data, and where that is in the world. */
-  private readonly cutOfData = new THREE.Plane();
-  private readonly cut = new THREE.Plane();
+  /** What cuts the surfaces, among the data, and where that is in the world. */
+  private cutsOfData: THREE.Plane[] = [];
+  private cuts: THREE.Plane[] = [];
+  private readonly cutLines = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: CUT }));
   /** Called after the camera was moved. */
   moved: () => void = () => {};
   /** Called when a way that `go` began is at its end, or somebody else has taken the camera. */
@@ -54,7 +64,8 @@ export class Scene {
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
     key.position.set(-0.6, 0.8, 1);
     this.camera.add(key);
-    this.world.add(this.slices.group);
+    this.cutLines.frustumCulled = false;
+    this.world.add(this.slices.group, this.cutLines);
     this.scene.add(this.world, this.camera, new THREE.HemisphereLight(0xffffff, 0x303440, 1.1));
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
@@ -180,12 +191,9 @@ export class Scene {
       gone.material.dispose();
     }
     found.forEach((each, i) => {
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute("position", new THREE.BufferAttribute(each.points, 3));
-      geometry.setAttribute("normal", new THREE.BufferAttribute(each.normals, 3));
+      const geometry = geometryOf(each);
       const own = colors[i];
       if (own) geometry.setAttribute("color", new THREE.BufferAttribute(own, 3));
-      geometry.setIndex(new THREE.BufferAttribute(each.triangles, 1));
       let surface = this.surfaces[i];
       if (!surface) {
         surface = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ roughness: 0.45, metalness: 0, side: THREE.DoubleSide }));
@@ -197,6 +205,29 @@ export class Scene {
       surface.geometry = geometry;
       surface.material.vertexColors = Boolean(own);
     });
+    this.look(this.looks);
+  }
+  /** Shows ghosts in their colors; those that were shown before are still there. */
+  ghosts(found: readonly { mesh: Found; color: string; opacity: number }[]): void {
+    for (const [mesh, { geometry, material }] of this.ghostMeshes)
+      if (!found.some((each) => each.mesh === mesh)) {
+        this.world.remove(this.ghostMeshes.get(mesh)!);
+        geometry.dispose();
+        material.dispose();
+        this.ghostMeshes.delete(mesh);
+      }
+    for (const { mesh, color, opacity } of found) {
+      let ghost = this.ghostMeshes.get(mesh);
+      if (!ghost) {
+        ghost = new THREE.Mesh(geometryOf(mesh), new THREE.MeshStandardMaterial({ roughness: 0.45, metalness: 0, side: THREE.DoubleSide, transparent: true, depthWrite: false }));
+        ghost.frustumCulled = false;
+        ghost.renderOrder = 1; // drawn after translucent surfaces
+        this.ghostMeshes.set(mesh, ghost);
+        this.world.add(ghost);
+      }
+      ghost.material.color.set(color);
+      ghost.material.opacity = opacity;
+    }
     this.look(this.looks);
   }
   /** Shows slices of an array with this grid. */
@@ -215,23 +246,23 @@ export class Scene {
       material.transparent = opacity < 1;
       material.depthWrite = opacity >= 1 || looks.length === 1;
       material.visible = opacity > 0;
-      material.clippingPlanes = this.cuts ? [this.cut] : null;
       material.needsUpdate = true;
     });
+    for (const { material } of [...this.surfaces, ...this.ghostMeshes.values()]) material.clippingPlanes = this.cuts.length ? this.cuts : null;
     this.draw();
   }
-  /** Cuts away what lies beyond a plane; null: nothing. */
-  clip(info: Info, at: Cut | null): void {
-    this.renderer.localClippingEnabled = at !== null;
-    if (at && "point" in at) {
-      const point = new THREE.Vector3(...(at.point as [number, number, number])).sub(new THREE.Vector3(...info.origin));
-      this.cutOfData.setFromNormalAndCoplanarPoint(new THREE.Vector3(...(at.normal as [number, number, number])).negate(), point);
-    } else if (at) {
-      const size = info.positions[at.axis]!.at(-1) ?? (info.vertices[at.axis]! - 1) * info.spacing[at.axis]!;
-      const along = new THREE.Vector3(...info.direction[at.axis]!);
-      this.cutOfData.setFromNormalAndCoplanarPoint(along.clone().negate(), along.multiplyScalar(size * at.share));
-    }
-    this.cuts = at !== null;
+  /** Cuts away what lies beyond planes, or outside a box; null: there is none. */
+  clip(info: Info, planes: readonly Plane[], box: Box | null): void {
+    const origin = new THREE.Vector3(...info.origin);
+    this.cutsOfData = [...planes, ...(box ? facesOf(info, box) : [])].map((plane) => {
+      const [point, normal] = [0, 3].map((first) => new THREE.Vector3().fromArray(plane, first));
+      return new THREE.Plane().setFromNormalAndCoplanarPoint(normal!.negate(), point!.sub(origin));
+    });
+    this.cuts = this.cutsOfData.map((plane) => plane.clone());
+    this.renderer.localClippingEnabled = this.cuts.length > 0;
+    this.cutLines.geometry.dispose();
+    const lines = [...planes.flatMap((plane) => outlineOf(info, plane)), ...(box ? edgesOf(info, box) : [])];
+    this.cutLines.geometry = new THREE.BufferGeometry().setFromPoints(lines.map((end) => new THREE.Vector3(...end)));
     this.look(this.looks);
   }
   background(color: string): void {
@@ -280,7 +311,7 @@ export class Scene {
   }
   private render(): void {
     this.world.updateMatrixWorld();
-    this.cut.copy(this.cutOfData).applyMatrix4(this.world.matrixWorld);
+    this.cuts.forEach((cut, i) => cut.copy(this.cutsOfData[i]!).applyMatrix4(this.world.matrixWorld));
     this.renderer.render(this.scene, this.camera);
     const { clientWidth, clientHeight } = this.renderer.domElement;
     if (!this.renderer.xr.isPresenting) this.ticks.draw(this.camera, clientWidth, clientHeight);

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -29,7 +28,7 @@ class DicomSeries final : public DecodedFile {
         }
         std::vector<DicomVolume> volumes = dicom_volumes(files_);
         if (volumes.empty())
-            throw Error(fmt::format("{}: holds no image", path.string()));
+            throw Error("{}: holds no image", path.string());
         choose(volumes, options, path.string());
         describe();
         if (without > 0)
@@ -37,7 +36,6 @@ class DicomSeries final : public DecodedFile {
                 fmt::format("{} of {} files hold no image", without, paths_.size()));
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return stack_.steps.size(); }
     std::uint32_t slices_at_once() const override { return slices_worth_asking(info_); }
     std::uint64_t decoded_bytes() const override {
@@ -108,9 +106,7 @@ class DicomSeries final : public DecodedFile {
         const DicomFile& file = file_of(image);
         info_.grid = stack_.grid;
         expect_few_steps(stack_.steps.size(), names_.front());
-        info_.arrays = chosen_.offered;
-        info_.array = chosen_.label();
-        info_.type = chosen_.value_type();
+        chosen_.describe(info_);
         if (!rescaled_)
             info_.scaling = image.scaling;
         info_.value_unit = file.value_unit;
@@ -148,7 +144,6 @@ class DicomSeries final : public DecodedFile {
     std::vector<DicomFile> files_;
     DicomStack stack_;
     ChosenScalar chosen_;
-    SeriesInfo info_;
     bool rescaled_ = false;
     DicomPixels pixels_;
     std::vector<std::byte> stored_; ///< a plane before it is scaled

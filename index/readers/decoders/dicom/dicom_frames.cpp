@@ -135,9 +135,9 @@ void place(const DicomTags& root, const FrameTags& tags, DicomFile& file, const 
         const double off = std::abs(glm::dot(image.along[0], image.along[1]));
         for (glm::dvec3& axis : image.along)
             if (!(std::abs(glm::length(axis) - 1) < 1e-2) || !(off < 1e-2))
-                throw Error(fmt::format("{}: its rows and columns have directions of other lengths "
-                                        "than 1, or are not at right angles",
-                                        name));
+                throw Error("{}: its rows and columns have directions of other lengths than 1, or "
+                            "are not at right angles",
+                            name);
         image.along[0] = glm::normalize(image.along[0]);
         image.along[1] = glm::normalize(image.along[1] -
                                         image.along[0] * glm::dot(image.along[0], image.along[1]));
@@ -254,12 +254,11 @@ std::vector<DicomImage> images_of(const DicomTags& root, DicomFile& file, std::s
     const Tag groups = file.tiles_across > 1 ? kTileGroups : kFrameGroups;
     const bool grouped = !root.within(groups, 0).empty();
     if (grouped && root.items(groups) != file.frames)
-        throw Error(fmt::format("{}: {} frames are described, expected {}", name,
-                                root.items(groups), file.frames));
+        throw Error("{}: {} frames are described, expected {}", name, root.items(groups),
+                    file.frames);
     const double columns = root.number({0x0048, 0x0006}).value_or(0); // TotalPixelMatrixColumns
     if (columns > file.columns && file.frames > 1)
-        throw Error(fmt::format("{}: {} tiles of one picture, expected slices of a volume", name,
-                                file.frames));
+        throw Error("{}: {} tiles of one picture, expected slices of a volume", name, file.frames);
     const bool counted = !grouped && file.frames > 1;
     const FrameCounts counts = counted ? count_frames(root, file, name) : FrameCounts{};
     const OtherDimensions dimensions(root, file);
@@ -286,9 +285,9 @@ std::vector<DicomImage> images_of(const DicomTags& root, DicomFile& file, std::s
                          tags.number(kTransformation, {0x0028, 0x1052}).value_or(0)};
         if (!std::isfinite(image.scaling.slope) || image.scaling.slope == 0 ||
             !std::isfinite(image.scaling.intercept))
-            throw Error(fmt::format("{}: RescaleSlope {} and RescaleIntercept {}, expected finite "
-                                    "ones, the slope not 0",
-                                    name, image.scaling.slope, image.scaling.intercept));
+            throw Error("{}: RescaleSlope {} and RescaleIntercept {}, expected finite ones, the "
+                        "slope not 0",
+                        name, image.scaling.slope, image.scaling.intercept);
         images.push_back(std::move(image));
     }
     return images;

@@ -29,9 +29,8 @@ void describe_pixels(const DicomTags& root, const std::string& name, DicomFile& 
         const auto number = root.number(tag);
         const double value = number.value_or(otherwise.value_or(-1));
         if (!(value >= least && value <= most) || value != std::floor(value))
-            throw Error(fmt::format("{}: {} {}, expected {} to {}", name, what,
-                                    number ? fmt::format("{}", value) : "is not said", least,
-                                    most));
+            throw Error("{}: {} {}, expected {} to {}", name, what,
+                        number ? fmt::format("{}", value) : "is not said", least, most);
         return static_cast<std::uint32_t>(value);
     };
     file.rows = whole({0x0028, 0x0010}, "Rows", 1, 65535);
@@ -50,15 +49,14 @@ void describe_pixels(const DicomTags& root, const std::string& name, DicomFile& 
     case 8: file.type = with_sign ? StoredType::i8 : StoredType::u8; break;
     case 16: file.type = with_sign ? StoredType::i16 : StoredType::u16; break;
     case 32: file.type = with_sign ? StoredType::i32 : StoredType::u32; break;
-    default:
-        throw Error(fmt::format("{}: BitsAllocated {}, expected 8, 16 or 32", name, allocated));
+    default: throw Error("{}: BitsAllocated {}, expected 8, 16 or 32", name, allocated);
     }
     const std::string colors = root.text({0x0028, 0x0004});
     if (colors == "MONOCHROME1")
         file.notes.push_back("its low values are meant to be shown bright (MONOCHROME1)");
     else if (colors != "MONOCHROME2" && colors != "RGB" && !colors.empty())
-        throw Error(fmt::format("{}: PhotometricInterpretation {}, expected MONOCHROME2 or RGB",
-                                name, excerpt(colors)));
+        throw Error("{}: PhotometricInterpretation {}, expected MONOCHROME2 or RGB", name,
+                    excerpt(colors));
     if (const auto padding = root.number({0x0028, 0x0120}))
         file.notes.push_back(fmt::format("its padding value {} counts as data", *padding));
 }
@@ -71,7 +69,7 @@ void find_pixels(const fs::path& path, const gdcm::TransferSyntax& syntax, Dicom
     const auto place = place_of_pixels(path, {!syntax.IsImplicit(), big});
     const std::string name = path.string();
     if (!place)
-        throw Error(fmt::format("{}: no pixels in it, or damaged before them", name));
+        throw Error("{}: no pixels in it, or damaged before them", name);
     if (place->packed || syntax.IsEncapsulated())
         return;
     const std::uint64_t expected =
@@ -79,8 +77,7 @@ void find_pixels(const fs::path& path, const gdcm::TransferSyntax& syntax, Dicom
     const std::uint64_t size = file_bytes(path);
     const std::uint64_t there = std::min(place->bytes, size - std::min(size, place->at));
     if (there < expected)
-        throw Error(fmt::format("{}: truncated: its pixels have {} bytes, expected {}", name, there,
-                                expected));
+        throw Error("{}: truncated: its pixels have {} bytes, expected {}", name, there, expected);
     file.pixels_at = place->at;
     file.big_endian = big;
 }
@@ -114,7 +111,7 @@ DicomFile read_dicom_header(const fs::path& path, std::size_t number) {
     gdcm::Reader reader;
     reader.SetFileName(path.c_str());
     if (!reader.ReadUpToTag(kPixelData, {kPixelData}))
-        throw Error(fmt::format("{}: not DICOM, or damaged", name));
+        throw Error("{}: not DICOM, or damaged", name);
     const DicomTags root(reader.GetFile().GetDataSet(), name);
     DicomFile file;
     if (!root.number({0x0028, 0x0010}) && !root.number({0x0028, 0x0011}))

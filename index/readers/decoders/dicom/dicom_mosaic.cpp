@@ -64,11 +64,11 @@ void take_mosaic(const DicomTags& root, const std::string& name, DicomFile& file
     const double across = said ? std::ceil(std::sqrt(tiles)) : 1;
     const double down = of_siemens ? across : std::ceil(tiles / across);
     if (!said || std::fmod(file.columns, across) != 0 || std::fmod(file.rows, down) != 0)
-        throw Error(fmt::format(
+        throw Error(
             "{}: a mosaic of slices, {} x {} pixels, that says {}: `dcm2niix {}` may convert it",
             name, file.columns, file.rows,
             said ? fmt::format("it has {} slices", tiles) : "nothing of their number",
-            std::filesystem::path(name).parent_path().string()));
+            std::filesystem::path(name).parent_path().string());
     file.frames = static_cast<std::uint32_t>(tiles);
     file.tiles_across = static_cast<std::uint32_t>(across);
     file.tiles_down = static_cast<std::uint32_t>(down);

@@ -4,12 +4,10 @@
 #include "index/error.h"
 #include "index/system/input_file.h"
 
-#include <fmt/format.h>
 #include <gdcmImageReader.h>
 
 #include <algorithm>
 #include <cstring>
-#include <span>
 #include <type_traits>
 
 namespace isochron::index {
@@ -60,16 +58,16 @@ void DicomPixels::decode(const std::filesystem::path& path, const DicomFile& fil
         if (sizes[0] != stored_columns(file) || sizes[1] != stored_rows(file) ||
             image.GetPixelFormat().GetSamplesPerPixel() != file.samples ||
             image.GetPixelFormat().GetBitsAllocated() != 8 * size_of(file.type))
-            throw Error(fmt::format("{}: its pixels are {} x {}, its header says {} x {}", name,
-                                    sizes[0], sizes[1], stored_columns(file), stored_rows(file)));
+            throw Error("{}: its pixels are {} x {}, its header says {} x {}", name, sizes[0],
+                        sizes[1], stored_columns(file), stored_rows(file));
     };
     if (alone) {
         pixels_.resize(expected);
         const std::size_t got = InputFile(path).read(file.pixels_at + frame * expected,
                                                      std::as_writable_bytes(std::span(pixels_)));
         if (got < expected)
-            throw Error(fmt::format("{}: truncated: frame {} has {} bytes, expected {}", name,
-                                    frame, got, expected));
+            throw Error("{}: truncated: frame {} has {} bytes, expected {}", name, frame, got,
+                        expected);
         planar_ = file.planar;
         if (file.big_endian)
             swap_bytes(std::as_writable_bytes(std::span(pixels_)), size_of(file.type));
@@ -77,16 +75,15 @@ void DicomPixels::decode(const std::filesystem::path& path, const DicomFile& fil
         gdcm::ImageReader reader;
         reader.SetFileName(path.c_str());
         if (!reader.Read())
-            throw Error(
-                fmt::format("{}: its pixels cannot be decoded: truncated, or damaged", name));
+            throw Error("{}: its pixels cannot be decoded: truncated, or damaged", name);
         const gdcm::Image& image = reader.GetImage();
         check(image);
         if (image.GetBufferLength() != expected)
-            throw Error(fmt::format("{}: its pixels have {} bytes, expected {}", name,
-                                    image.GetBufferLength(), expected));
+            throw Error("{}: its pixels have {} bytes, expected {}", name, image.GetBufferLength(),
+                        expected);
         pixels_.resize(expected);
         if (!image.GetBuffer(pixels_.data()))
-            throw Error(fmt::format("{}: its pixels cannot be decoded", name));
+            throw Error("{}: its pixels cannot be decoded", name);
         planar_ = image.GetPlanarConfiguration() == 1;
     }
     decoded_ = path;

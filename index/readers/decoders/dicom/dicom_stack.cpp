@@ -85,12 +85,12 @@ void expect_upright(const std::vector<DicomSlice>& slices, double rounding, cons
             const double up = glm::dot(way, normal), aside = glm::length(way - up * normal);
             if (aside <= still + share * std::abs(up))
                 continue;
-            throw Error(fmt::format("{}: lies {:.4g} mm beside the slice of {}: slices {} {:.3g} "
-                                    "degrees, expected them straight behind each other",
-                                    names[image.file], aside, names[first.file],
-                                    file.modality == "CT" ? "of a gantry tilted by"
-                                                          : "that are shifted sideways, by",
-                                    std::atan2(aside, std::abs(up)) * 180 / std::numbers::pi));
+            throw Error("{}: lies {:.4g} mm beside the slice of {}: slices {} {:.3g} degrees, "
+                        "expected them straight behind each other",
+                        names[image.file], aside, names[first.file],
+                        file.modality == "CT" ? "of a gantry tilted by"
+                                              : "that are shifted sideways, by",
+                        std::atan2(aside, std::abs(up)) * 180 / std::numbers::pi);
         }
 }
 
@@ -123,9 +123,9 @@ void place_slices(const std::vector<DicomSlice>& slices, double rounding,
         return;
     for (std::size_t i = 1; multiples && i < at.size(); ++i)
         if (gaps[i - 1] > 1.5 * least)
-            throw Error(fmt::format("{}: {:.4g} mm behind {}, others {:.4g} mm: slices are missing",
-                                    names[slices[i].front().file], gaps[i - 1],
-                                    names[slices[i - 1].front().file], least));
+            throw Error("{}: {:.4g} mm behind {}, others {:.4g} mm: slices are missing",
+                        names[slices[i].front().file], gaps[i - 1],
+                        names[slices[i - 1].front().file], least);
     set_positions(stack.grid, 2, at);
     stack.notes.push_back(
         fmt::format("slices are {:.4g} to {:.4g} mm apart: kept as positions", least, most));
@@ -204,9 +204,9 @@ DicomStack dicom_stack(const std::vector<DicomImage>& images, const DicomFile& f
     stack.grid.spacing.z = distance;
     if (slices.size() == 1 && slices.front().size() > 1) {
         if (!spaced)
-            throw Error(fmt::format("{}: a film, {} frames of one slice ({}), expected slices; "
-                                    "--spacing X Y Z takes the frames for slices, Z apart",
-                                    names[slices.front().front().file], slices.front().size(), by));
+            throw Error("{}: a film, {} frames of one slice ({}), expected slices; --spacing X Y Z "
+                        "takes the frames for slices, Z apart",
+                        names[slices.front().front().file], slices.front().size(), by);
         found = {
             .notes = {fmt::format("frames of one slice each ({}): they are taken for slices", by)}};
         DicomSlice frames = std::move(slices.front());

@@ -4,7 +4,6 @@
 #include "index/readers/decoders/dicom/dicom_image.h"
 #include "index/volume/grid.h"
 
-#include <cstddef>
 #include <string>
 #include <vector>
 

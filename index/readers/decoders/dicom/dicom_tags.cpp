@@ -1,7 +1,6 @@
 // Texts and numbers of DICOM attributes.
 #include "index/readers/decoders/dicom/dicom_tags.h"
 
-#include "index/error.h"
 #include "index/readers/formats/text_header.h"
 #include "index/utf8.h"
 
@@ -13,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 
 namespace isochron::index {

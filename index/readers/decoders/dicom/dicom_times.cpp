@@ -5,8 +5,6 @@
 #include "index/readers/decoders/dicom/dicom_clocks.h"
 #include "index/readers/formats/unread_fields.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -170,9 +168,9 @@ DicomTimes sort_times(std::vector<DicomSlice>& slices, const DicomFile& file,
     const DicomSlice& first = slices.front();
     for (const DicomSlice& slice : slices)
         if (slice.size() != first.size())
-            throw Error(fmt::format("{}: {} images at its place, {} has {} at its own",
-                                    names[slice.front().file], slice.size(),
-                                    names[first.front().file], first.size()));
+            throw Error("{}: {} images at its place, {} has {} at its own",
+                        names[slice.front().file], slice.size(), names[first.front().file],
+                        first.size());
     DicomTimes found;
     if (first.size() == 1)
         return found;
@@ -181,9 +179,8 @@ DicomTimes sort_times(std::vector<DicomSlice>& slices, const DicomFile& file,
         pass_midnight(slices, clock, found);
     const auto clock = ordering_clock(slices);
     if (!clock)
-        throw Error(fmt::format("{}, {}: images of the same place that neither time nor number "
-                                "tells apart",
-                                names[first[0].file], names[first[1].file]));
+        throw Error("{}, {}: images of the same place that neither time nor number tells apart",
+                    names[first[0].file], names[first[1].file]);
     for (DicomSlice& slice : slices)
         std::ranges::sort(slice, {}, [&](const DicomImage& image) { return *image.clock(*clock); });
     give_dicom_times(slices, *clock, file, found);

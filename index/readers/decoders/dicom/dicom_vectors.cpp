@@ -6,8 +6,6 @@
 
 #include "index/error.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -131,10 +129,9 @@ FrameCounts count_frames(const DicomTags& root, DicomFile& file, const std::stri
             std::ranges::all_of(numbers, [&](double each) { return each == numbers.front(); }))
             continue;
         if (vector.counts == FrameVector::views)
-            throw Error(
-                fmt::format("{}: {} frames of other directions of view ({}), expected slices "
-                            "that were computed of them",
-                            name, file.frames, vector.name));
+            throw Error("{}: {} frames of other directions of view ({}), expected slices that were "
+                        "computed of them",
+                        name, file.frames, vector.name);
         if (vector.counts == FrameVector::volumes)
             counts.volumes[vector.name] = numbers;
         if (vector.counts == FrameVector::time)

@@ -49,9 +49,7 @@ class AthenaFile final : public DecodedFile {
         variable_ = static_cast<std::size_t>(
             std::ranges::find(offered, chosen_.array.name, &StoredArray::name) - offered.begin());
         values_.emplace(*file_, variables_[variable_].dataset, std::nullopt);
-        info_.arrays = chosen_.offered;
-        info_.array = chosen_.label();
-        info_.type = chosen_.value_type();
+        chosen_.describe(info_);
         place(options);
         info_.notes.push_back(
             fmt::format("put together from {} blocks of Athena++; values of cells "
@@ -67,7 +65,6 @@ class AthenaFile final : public DecodedFile {
             info_.times = {time.front()};
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return 1; }
     std::uint32_t slices_at_once() const override { return info_.grid.vertices[2]; }
     std::uint64_t decoded_bytes() const override { return 2 * info_.step_bytes(); }
@@ -93,7 +90,7 @@ class AthenaFile final : public DecodedFile {
 
   private:
     [[noreturn]] void fail(const std::string& what) const {
-        throw Error(fmt::format("{}: {}", file_->name(), what));
+        throw Error("{}: {}", file_->name(), what);
     }
 
     std::vector<double> values_of(const char* path, std::size_t count) const {
@@ -196,7 +193,6 @@ class AthenaFile final : public DecodedFile {
     std::size_t variable_ = 0;
     ChosenScalar chosen_;
     std::optional<Hdf5Values> values_;
-    SeriesInfo info_;
 };
 
 } // namespace

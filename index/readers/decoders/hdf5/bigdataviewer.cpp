@@ -19,10 +19,8 @@
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
-#include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 namespace isochron::index {
 namespace {
@@ -97,9 +95,8 @@ std::string view_of_bigdataviewer(const Hdf5File& file) {
          ++setup)
         views.push_back(fmt::format("/t*/s{:02}/0/cells", setup));
     if (views.size() > 1)
-        throw Error(
-            fmt::format("{}: several setups of BigDataViewer, choose one with --array: '{}'",
-                        file.name(), fmt::join(views, "', '")));
+        throw Error("{}: several setups of BigDataViewer, choose one with --array: '{}'",
+                    file.name(), fmt::join(views, "', '"));
     return views.front();
 }
 
@@ -126,7 +123,7 @@ void take_bigdataviewer(const Hdf5File& file, const Hdf5Dataset& view, StatedArr
     if (document.Parse(text.c_str(), text.size()) == tinyxml2::XML_SUCCESS)
         root = document.RootElement();
     else if (!text.empty())
-        throw Error(fmt::format("{}: damaged XML: {}", beside.string(), document.ErrorName()));
+        throw Error("{}: damaged XML: {}", beside.string(), document.ErrorName());
     if (!root)
         notes.push_back(fmt::format("{} is not there, which has the size of the voxels",
                                     beside.filename().string()));

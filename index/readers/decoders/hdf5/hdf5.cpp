@@ -9,8 +9,6 @@
 #include "index/readers/decoders/hdf5/vtkhdf.h"
 #include "index/readers/formats/stored_file.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 namespace isochron::index {
@@ -20,8 +18,7 @@ namespace {
 /// Formats within HDF5 that need more than their datasets: what they are, and the way out.
 void expect_no_other_format(const Hdf5File& file) {
     const auto refuse = [&](const char* what, const char* way_out) {
-        throw Error(fmt::format("{}: {}, expected volumes as plain datasets; {}", file.name(), what,
-                                way_out));
+        throw Error("{}: {}, expected volumes as plain datasets; {}", file.name(), what, way_out);
     };
     if (file.holds("/minc-2.0"))
         refuse("MINC 2, which scales each slice in its own way",
@@ -64,8 +61,7 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
     const Hdf5Array array = choose_array(*file, asked);
     const Hdf5Dataset& first = array.steps.front();
     if (!first.type)
-        throw Error(
-            fmt::format("{}: {} does not hold numbers that can be read", file->name(), first.path));
+        throw Error("{}: {} does not hold numbers that can be read", file->name(), first.path);
     StatedArray record = stated(*file, first, true);
     record.name = array.name;
     std::vector<std::string> notes;
@@ -77,10 +73,9 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
     volume.member = member_of(record, layout, options);
     volume.info.notes = std::move(notes);
     if (layout.time && array.steps.size() > 1)
-        throw Error(fmt::format("{}: {} ({}): each of {} groups holds several steps, choose one "
-                                "with --array {}",
-                                file->name(), array.name, shape_text(first.dimensions),
-                                array.steps.size(), first.path));
+        throw Error(
+            "{}: {} ({}): each of {} groups holds several steps, choose one with --array {}",
+            file->name(), array.name, shape_text(first.dimensions), array.steps.size(), first.path);
     volume.info.arrays = array.offered;
     if (array.note)
         volume.info.notes.push_back(*array.note);

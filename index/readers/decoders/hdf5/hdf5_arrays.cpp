@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 namespace isochron::index {
 namespace {
@@ -110,8 +109,8 @@ std::vector<Hdf5Array> put_together(const Hdf5File& file,
     for (std::size_t i = 0; i < std::min(kListed, datasets.size()); ++i)
         list += fmt::format("{}{} ({})", i ? ", " : ": ", datasets[i].path,
                             shape_text(datasets[i].dimensions));
-    throw Error(fmt::format("{}: holds no dataset of numbers with three to five dimensions{}",
-                            file.name(), list));
+    throw Error("{}: holds no dataset of numbers with three to five dimensions{}", file.name(),
+                list);
 }
 
 /// The arrays whose path is `name`, or else those whose path ends in it.
@@ -141,7 +140,7 @@ Hdf5Array matching(const Hdf5File& file, const std::vector<Hdf5Dataset>& dataset
 /// @throws Error where names leave open which numbers count the steps, unless a note may say it
 void expect_told(Hdf5Array& array, const Hdf5File& file, const ReadOptions& options) {
     if (array.open && !options.any_array)
-        throw Error(fmt::format("{}: {}", file.name(), *array.open));
+        throw Error("{}: {}", file.name(), *array.open);
     if (array.open)
         array.note = array.open;
 }

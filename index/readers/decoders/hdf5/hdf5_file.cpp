@@ -156,7 +156,7 @@ Hdf5File::Hdf5File(const fs::path& path, bool parts) : name_(path.string()) {
     register_hdf5_filters();
     const htri_t is = H5Fis_hdf5(name_.c_str());
     if (is == 0)
-        throw Error(fmt::format("{}: not HDF5: it does not start as HDF5 does", name_));
+        throw Error("{}: not HDF5: it does not start as HDF5 does", name_);
     const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     // The library reads 64 KiB around every row of a part that is shorter than that.
     constexpr std::size_t kShortRow = 256;
@@ -168,7 +168,7 @@ Hdf5File::Hdf5File(const fs::path& path, bool parts) : name_(path.string()) {
 
 void Hdf5File::expect(bool good, const std::string& what) const {
     if (!good)
-        throw Error(fmt::format("{}: {}: {}", name_, what, words_of_hdf5()));
+        throw Error("{}: {}: {}", name_, what, words_of_hdf5());
 }
 
 std::vector<Hdf5Dataset> Hdf5File::datasets() const {
@@ -191,8 +191,8 @@ std::vector<Hdf5Dataset> Hdf5File::datasets() const {
         std::rethrow_exception(visit.failure);
     expect(status >= 0, "damaged groups");
     if (status > 0)
-        throw Error(fmt::format("{}: more than {} objects, choose one with --array /its/path",
-                                name_, kMostObjects));
+        throw Error("{}: more than {} objects, choose one with --array /its/path", name_,
+                    kMostObjects);
     std::vector<Hdf5Dataset> datasets;
     for (const std::string& path : visit.paths) {
         auto found = dataset(path);
@@ -266,8 +266,8 @@ std::vector<double> Hdf5File::values(const Hdf5Dataset& dataset) const {
     const Hdf5Handle space(H5Dget_space(open.id()), H5Sclose);
     const hssize_t count = space ? H5Sget_simple_extent_npoints(space.id()) : 0;
     if (!dataset.type || count < 1 || count > kMostNumbers)
-        throw Error(fmt::format("{}: {}: {} values, expected 1 to {} numbers", name_, dataset.path,
-                                count, kMostNumbers));
+        throw Error("{}: {}: {} values, expected 1 to {} numbers", name_, dataset.path, count,
+                    kMostNumbers);
     std::vector<double> values(static_cast<std::size_t>(count));
     expect(H5Dread(open.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
            what);

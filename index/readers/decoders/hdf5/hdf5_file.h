@@ -3,11 +3,9 @@
 
 #include "index/readers/formats/stored_scalar.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>

@@ -1,7 +1,6 @@
 // Fills the record of an array by dimension scales, datasets beside it and attributes.
 #include "index/readers/decoders/hdf5/hdf5_stated.h"
 
-#include "index/readers/formats/stated/axis_roles.h"
 #include "index/readers/formats/stated/stated_attributes.h"
 #include "index/readers/formats/stated/stated_times.h"
 #include "index/readers/formats/stated/stated_values.h"
@@ -10,8 +9,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <initializer_list>
-#include <optional>
 #include <sstream>
 #include <utility>
 

@@ -89,10 +89,9 @@ void Hdf5Values::expect_filters(std::int64_t properties) const {
                                                &values, nullptr, sizeof name, name, &config);
         file_.expect(id >= 0, fmt::format("{}: damaged filters", dataset_.path));
         if (H5Zfilter_avail(id) <= 0)
-            throw Error(fmt::format("{}: {} is packed by filter {}{}, which is not installed; "
-                                    "HDF5 finds filters by HDF5_PLUGIN_PATH",
-                                    file_.name(), dataset_.path, id,
-                                    *name ? fmt::format(" ({})", name) : ""));
+            throw Error("{}: {} is packed by filter {}{}, which is not installed; HDF5 finds "
+                        "filters by HDF5_PLUGIN_PATH",
+                        file_.name(), dataset_.path, id, *name ? fmt::format(" ({})", name) : "");
     }
 }
 

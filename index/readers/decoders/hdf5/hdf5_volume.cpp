@@ -1,7 +1,6 @@
 // Reads steps of HDF5 datasets, slab by slab.
 #include "index/readers/decoders/hdf5/hdf5_volume.h"
 
-#include "index/error.h"
 #include "index/readers/decoders/hdf5/hdf5_stated.h"
 #include "index/readers/formats/cropped_file.h"
 #include "index/readers/formats/stated/stated_attributes.h"
@@ -11,8 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace isochron::index {
@@ -34,21 +31,20 @@ class Hdf5Decoder final : public DecodedFile {
         ReadOptions asked = options;
         asked.array.reset(); // already chosen
         chosen_ = choose_scalar(std::span(&array, 1), asked, file_->name());
-        SeriesInfo& info = volume_.info;
-        info.array = chosen_.label();
-        info.type = chosen_.value_type();
-        info.scaling = scaling_by(attributes, where);
+        info_ = std::move(volume_.info);
+        info_.array = chosen_.label();
+        info_.type = chosen_.value_type();
+        info_.scaling = scaling_by(attributes, where);
         for (std::string& note : chosen_.notes())
-            info.notes.push_back(std::move(note));
+            info_.notes.push_back(std::move(note));
         note_unread();
-        whole_ = info.grid;
-        part_ = crop_description(info, options, file_->name());
-        if (info.value_unit.empty())
-            info.value_unit = value_unit_by(attributes);
+        whole_ = info_.grid;
+        part_ = crop_description(info_, options, file_->name());
+        if (info_.value_unit.empty())
+            info_.value_unit = value_unit_by(attributes);
         open(0);
     }
 
-    const SeriesInfo& info() const override { return volume_.info; }
     std::size_t steps() const override {
         if (volume_.datasets.size() > 1)
             return volume_.datasets.size();
@@ -133,7 +129,7 @@ class Hdf5Decoder final : public DecodedFile {
              }))
             unread.push_back(std::move(curved));
         if (auto note = note_on_attributes(attributes, unread))
-            volume_.info.notes.push_back(std::move(*note));
+            info_.notes.push_back(std::move(*note));
     }
 
     const Hdf5Dataset& first() const { return volume_.datasets.front(); }

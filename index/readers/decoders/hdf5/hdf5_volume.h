@@ -7,7 +7,6 @@
 #include "index/readers/formats/stated/array_places.h"
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace isochron::index {

@@ -24,8 +24,8 @@ std::vector<double> expect_numbers(const Hdf5File& file, const char* attribute, 
     if (found.empty() && !otherwise.empty())
         return otherwise;
     if (found.size() != count)
-        throw Error(fmt::format("{}: {} of /VTKHDF has {} numbers, expected {}", file.name(),
-                                attribute, found.size(), count));
+        throw Error("{}: {} of /VTKHDF has {} numbers, expected {}", file.name(), attribute,
+                    found.size(), count);
     return found;
 }
 
@@ -79,7 +79,7 @@ std::optional<ArrayLayout> vtkhdf_layout(const Hdf5Dataset& dataset,
 void take_steps(const Hdf5File& file, const std::string& array, Hdf5Volume& volume) {
     const auto times = file.dataset(kSteps + "/Values");
     if (!times)
-        throw Error(fmt::format("{}: {} has no Values", file.name(), kSteps));
+        throw Error("{}: {} has no Values", file.name(), kSteps);
     volume.info.times = file.values(*times);
     const bool on_cells = volume.on_cells;
     const auto offsets = file.dataset(
@@ -93,9 +93,8 @@ void take_steps(const Hdf5File& file, const std::string& array, Hdf5Volume& volu
     for (const double place : places) {
         if (places.size() != volume.info.times.size() || !(place >= 0) ||
             place >= static_cast<double>(there))
-            throw Error(fmt::format("{}: {} holds {} steps, expected those of {} times",
-                                    file.name(), volume.datasets.front().path, there,
-                                    volume.info.times.size()));
+            throw Error("{}: {} holds {} steps, expected those of {} times", file.name(),
+                        volume.datasets.front().path, there, volume.info.times.size());
         volume.places.push_back(static_cast<std::uint64_t>(place));
     }
     expect_few_steps(volume.places.size(), file.name());
@@ -133,7 +132,7 @@ bool is_vtkhdf(const Hdf5File& file) {
 std::unique_ptr<DecodedFile> decode_vtkhdf(std::unique_ptr<Hdf5File> file,
                                            const ReadOptions& options) {
     if (const std::string type = file->text(kRoot, "Type"); type != "ImageData")
-        throw Error(fmt::format("{}: VTKHDF of type {}, expected ImageData", file->name(), type));
+        throw Error("{}: VTKHDF of type {}, expected ImageData", file->name(), type);
     Hdf5Volume volume;
     const auto sizes = place_vtkhdf(*file, volume.info);
     const bool in_steps = file->holds(kSteps);

@@ -45,9 +45,9 @@ class XdmfFile final : public DecodedFile {
                                    .components = *components,
                                    .on_cells = attribute.on_cells});
         if (offered.empty())
-            throw Error(fmt::format("{}: no attribute of its first grid has values at all its "
-                                    "vertices or cells",
-                                    name_));
+            throw Error(
+                "{}: no attribute of its first grid has values at all its vertices or cells",
+                name_);
         chosen_ = choose_scalar(offered, options, name_);
         for (const XdmfGrid& step : steps_) {
             expect_same_grid(step);
@@ -59,9 +59,7 @@ class XdmfFile final : public DecodedFile {
         if (blocks_ && chosen_.array.on_cells)
             expect_all_cells();
         info_.grid = first.grid;
-        info_.arrays = chosen_.offered;
-        info_.array = chosen_.label();
-        info_.type = chosen_.value_type();
+        chosen_.describe(info_);
         info_.notes = first.notes;
         for (std::string& note : chosen_.notes())
             info_.notes.push_back(std::move(note));
@@ -82,7 +80,6 @@ class XdmfFile final : public DecodedFile {
             steps_.resize(info_.times.size());
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return steps_.size(); }
     std::uint32_t slices_at_once() const override {
         return chosen_.array.on_cells || blocks_ ? info_.grid.vertices[2]
@@ -190,8 +187,8 @@ class XdmfFile final : public DecodedFile {
             return item.type;
         const Hdf5Dataset dataset = open_dataset(item);
         if (!dataset.type)
-            throw Error(fmt::format("{}: {} does not hold numbers that can be read", heavy_->name(),
-                                    dataset.path));
+            throw Error("{}: {} does not hold numbers that can be read", heavy_->name(),
+                        dataset.path);
         return *dataset.type;
     }
 
@@ -229,8 +226,8 @@ class XdmfFile final : public DecodedFile {
     Hdf5Dataset open_dataset(const XdmfItem& item) {
         auto dataset = find_dataset(item);
         if (!dataset)
-            throw Error(fmt::format("{}: holds no dataset {}", heavy_->name(),
-                                    excerpt(heavy_of(item.text, item.document).path)));
+            throw Error("{}: holds no dataset {}", heavy_->name(),
+                        excerpt(heavy_of(item.text, item.document).path));
         return std::move(*dataset);
     }
 
@@ -239,8 +236,7 @@ class XdmfFile final : public DecodedFile {
             step.grid.spacing != steps_.front().grid.spacing ||
             step.grid.origin != steps_.front().grid.origin ||
             step.grid.positions != steps_.front().grid.positions)
-            throw Error(
-                fmt::format("{}: the grid of step {} is not as in step 0", name_, items_.size()));
+            throw Error("{}: the grid of step {} is not as in step 0", name_, items_.size());
     }
 
     /// The chosen array of a part; it must be like the chosen array of the first part.
@@ -251,11 +247,9 @@ class XdmfFile final : public DecodedFile {
                    one.on_cells == chosen_.array.on_cells;
         });
         if (found == part.attributes.end())
-            throw Error(
-                fmt::format("{}: step {} has no attribute {}", name_, step, chosen_.array.name));
+            throw Error("{}: step {} has no attribute {}", name_, step, chosen_.array.name);
         if (components_of(*found, part.grid) != chosen_.array.components)
-            throw Error(fmt::format("{}: {} of step {} is not as in step 0", name_,
-                                    chosen_.array.name, step));
+            throw Error("{}: {} of step {} is not as in step 0", name_, chosen_.array.name, step);
         expect_room_for(found->item);
         return found->item;
     }
@@ -267,8 +261,8 @@ class XdmfFile final : public DecodedFile {
             expect_room(file_named_in(item.document, item.text), item.seek, Compression::none,
                         values * size_of(item.type));
         if (item.where == XdmfItem::Where::document && values > item.text.size() / 2 + 1)
-            throw Error(fmt::format("{}: {} bytes of numbers as text, expected {} numbers", name_,
-                                    item.text.size(), values));
+            throw Error("{}: {} bytes of numbers as text, expected {} numbers", name_,
+                        item.text.size(), values);
     }
 
     /// Reads layers along z. @param grid that the item is of
@@ -282,9 +276,8 @@ class XdmfFile final : public DecodedFile {
             const std::uint64_t at = item.seek + first * layer_values(grid) * size;
             const std::size_t got = InputFile(file).read(at, out);
             if (item.type != *chosen_.array.type || !item.start.empty() || got < out.size())
-                throw Error(fmt::format("{}: {} bytes from byte {} on, expected {} of {}",
-                                        file.string(), got, at, out.size(),
-                                        name_of(*chosen_.array.type)));
+                throw Error("{}: {} bytes from byte {} on, expected {} of {}", file.string(), got,
+                            at, out.size(), name_of(*chosen_.array.type));
             if (item.big_endian)
                 swap_bytes(out, size);
             return;
@@ -293,8 +286,8 @@ class XdmfFile final : public DecodedFile {
         }
         const auto numbers = numbers_of_item(item);
         if (numbers.size() != product(item.dimensions) || item.type != *chosen_.array.type)
-            throw Error(fmt::format("{}: {} numbers in step {}, expected {}", name_, numbers.size(),
-                                    step, product(item.dimensions)));
+            throw Error("{}: {} numbers in step {}, expected {}", name_, numbers.size(), step,
+                        product(item.dimensions));
         visit_stored_type(item.type, [&]<class T>(std::type_identity<T>) {
             for (std::size_t i = 0; i < out.size() / sizeof(T); ++i) {
                 const double number = numbers[first * layer_values(grid) + i];
@@ -302,8 +295,8 @@ class XdmfFile final : public DecodedFile {
                     !(number >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
                       // NOLINTNEXTLINE(bugprone-integer-division): half of a power of two
                       number < 2.0 * static_cast<double>(std::numeric_limits<T>::max() / 2 + 1)))
-                    throw Error(fmt::format("{}: {} in step {}, expected {}", name_, number, step,
-                                            name_of(item.type)));
+                    throw Error("{}: {} in step {}, expected {}", name_, number, step,
+                                name_of(item.type));
                 const T value = static_cast<T>(number);
                 std::memcpy(out.data() + i * sizeof(T), &value, sizeof(T));
             }
@@ -316,10 +309,9 @@ class XdmfFile final : public DecodedFile {
             values_.reset();
             dataset_ = open_dataset(item);
             if (dataset_.type != chosen_.array.type)
-                throw Error(fmt::format("{}: {} holds {}, expected {}", heavy_->name(),
-                                        dataset_.path,
-                                        dataset_.type ? name_of(*dataset_.type) : "no numbers",
-                                        name_of(*chosen_.array.type)));
+                throw Error("{}: {} holds {}, expected {}", heavy_->name(), dataset_.path,
+                            dataset_.type ? name_of(*dataset_.type) : "no numbers",
+                            name_of(*chosen_.array.type));
             values_.emplace(*heavy_, dataset_, std::nullopt);
             values_of_ = &item;
         }
@@ -340,8 +332,8 @@ class XdmfFile final : public DecodedFile {
         const bool flat = !count.empty() && axis + 1 == count.size();
         if (!within || count.empty() || product(count) != all_layers * of_layer ||
             (!flat && layers != all_layers && count[axis] != all_layers))
-            throw Error(fmt::format("{}: {} ({}) is not of the shape that {} says", heavy_->name(),
-                                    dataset_.path, shape_text(dataset_.dimensions), name_));
+            throw Error("{}: {} ({}) is not of the shape that {} says", heavy_->name(),
+                        dataset_.path, shape_text(dataset_.dimensions), name_);
         if (layers != all_layers) {
             const std::uint64_t share = flat ? of_layer : 1;
             start[axis] += first * share;
@@ -355,7 +347,6 @@ class XdmfFile final : public DecodedFile {
     std::vector<std::vector<XdmfItem>> items_; ///< items of the chosen array, by step and part
     bool blocks_ = false;                      ///< a step has several parts
     ChosenScalar chosen_;
-    SeriesInfo info_;
     std::unique_ptr<Hdf5File> heavy_; ///< the file that was opened last
     fs::path heavy_path_;
     Hdf5Dataset dataset_;

@@ -65,9 +65,7 @@ class XdmfParser {
     }
 
   private:
-    [[noreturn]] void fail(const std::string& what) const {
-        throw Error(fmt::format("{}: {}", name_, what));
-    }
+    [[noreturn]] void fail(const std::string& what) const { throw Error("{}: {}", name_, what); }
 
     /// The element that another refers to, if it does.
     const XMLElement* referred(const XMLElement* element) const {
@@ -390,14 +388,14 @@ std::vector<double> numbers_of_item(const XdmfItem& item) {
     if (item.where == XdmfItem::Where::document)
         return numbers_of(item.text, "a DataItem", name);
     if (item.where == XdmfItem::Where::plain || !item.start.empty())
-        throw Error(fmt::format("{}: coordinates in another file, or a part of them, expected them "
-                                "in the document or a dataset",
-                                name));
+        throw Error("{}: coordinates in another file, or a part of them, expected them in the "
+                    "document or a dataset",
+                    name);
     const XdmfHeavy heavy = heavy_of(item.text, item.document);
     const Hdf5File file(heavy.file);
     const auto dataset = file.dataset(heavy.path);
     if (!dataset)
-        throw Error(fmt::format("{}: holds no dataset {}", file.name(), excerpt(heavy.path)));
+        throw Error("{}: holds no dataset {}", file.name(), excerpt(heavy.path));
     return file.values(*dataset);
 }
 

@@ -7,7 +7,6 @@
 #include "index/readers/formats/stored_scalar.h"
 #include "index/volume/volume_series.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>

@@ -5,7 +5,6 @@
 #include "index/readers/formats/named_file.h"
 #include "index/readers/formats/text_header.h"
 
-#include <fmt/format.h>
 #include <tinyxml2.h>
 
 #include <regex>
@@ -19,8 +18,8 @@ XdmfHeavy heavy_of(const std::string& text, const std::filesystem::path& documen
     const std::string place(trimmed(text));
     const std::size_t colon = place.rfind(':');
     if (colon == std::string::npos || colon == 0 || colon + 1 == place.size())
-        throw Error(fmt::format("{}: a DataItem at {}, expected FILE.h5:/PATH", document.string(),
-                                excerpt(place)));
+        throw Error("{}: a DataItem at {}, expected FILE.h5:/PATH", document.string(),
+                    excerpt(place));
     return {file_named_in(document, std::string(trimmed(place.substr(0, colon)))),
             std::string(trimmed(place.substr(colon + 1)))};
 }
@@ -101,7 +100,7 @@ std::string with_entities(std::string text, const std::string& file) {
         for (std::size_t at; (at = text.find(name, from)) != text.npos; from = at + name.size()) {
             replaced.append(text, from, at - from).append(value);
             if (replaced.size() > most)
-                throw Error(fmt::format("{}: its entities make it much longer", file));
+                throw Error("{}: its entities make it much longer", file);
         }
         text = replaced.append(text, from);
     }

@@ -10,8 +10,6 @@
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/unread_fields.h"
 
-#include <fmt/format.h>
-
 #include <vtkAlgorithm.h>
 #include <vtkDataObject.h>
 #include <vtkImageData.h>
@@ -21,7 +19,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 namespace isochron::index {
@@ -38,7 +35,7 @@ std::vector<double> times_of(vtkAlgorithm& reader, const std::string& file) {
     const double* first = out->Get(key);
     std::vector<double> times(first, first + out->Length(key));
     if (std::ranges::adjacent_find(times, std::greater_equal<>()) != times.end())
-        throw Error(fmt::format("{}: its times do not increase", file));
+        throw Error("{}: its times do not increase", file);
     return times;
 }
 
@@ -79,7 +76,7 @@ class Mesh {
         else
             source_.reader->UpdateTimeStep(times_[step]);
         if (!source_.reader->GetOutputDataObject(0))
-            throw Error(fmt::format("{}: holds no mesh that VTK knows", path_.string()));
+            throw Error("{}: holds no mesh that VTK knows", path_.string());
         return data();
     }
 
@@ -94,16 +91,15 @@ class MeshFile final : public DecodedFile {
   public:
     MeshFile(fs::path path, const ReadOptions& options) : path_(std::move(path)) {
         if (!options.resample)
-            throw Error(fmt::format("{}: a mesh, expected a regular grid; --resample NX NY NZ or "
-                                    "--resample-by-cell makes one of it",
-                                    path_.string()));
+            throw Error("{}: a mesh, expected a regular grid; --resample NX NY NZ or "
+                        "--resample-by-cell makes one of it",
+                        path_.string());
         static SharedDecode<Mesh> open;
         mesh_ = open.of(path_, options,
                         [&] { return std::make_shared<Mesh>(path_, *options.resample); });
         with_vtk(path_, [&] { describe(options); });
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return std::max<std::size_t>(mesh_->times().size(), 1); }
     std::uint32_t slices_at_once() const override { return slices_of_vtk(chosen_, info_); }
     std::uint64_t decoded_bytes() const override { return bytes_of_vtk(chosen_, info_.grid); }
@@ -128,9 +124,7 @@ class MeshFile final : public DecodedFile {
                                  image.GetSpacing(), image.GetDirectionMatrix()->GetData(), name);
         chosen_ = choose_scalar(without_flags(arrays_of_vtk(image)), options, name);
         hidden_ = hidden_by_flags(flags_of_vtk(image, info_.grid), chosen_, info_.grid);
-        info_.arrays = chosen_.offered;
-        info_.array = chosen_.label();
-        info_.type = chosen_.value_type();
+        chosen_.describe(info_);
         info_.times = mesh_->times();
         info_.length_unit = source.length_unit;
         info_.time_unit = info_.times.empty() ? "" : source.time_unit;
@@ -149,7 +143,6 @@ class MeshFile final : public DecodedFile {
 
     fs::path path_;
     std::shared_ptr<Mesh> mesh_; ///< shared with the file's other arrays
-    SeriesInfo info_;
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_; ///< vertices, of the step `hidden_at_`
     std::size_t hidden_at_ = 0;

@@ -10,10 +10,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <sstream>
-#include <string_view>
 #include <system_error>
 
 namespace isochron::index {

@@ -1,7 +1,6 @@
 // Models that VTK reads: VTP, and glTF in both forms.
 #include "index/readers/decoders/mesh/mesh_model.h"
 
-#include "index/error.h"
 #include "index/lower_case.h"
 #include "index/readers/decoders/vtk/vtk_session.h"
 

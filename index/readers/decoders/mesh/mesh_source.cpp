@@ -6,9 +6,6 @@
 #include "index/lower_case.h"
 #include "index/readers/decoders/mesh/mesh_fields.h"
 #include "index/readers/formats/data_stream.h"
-#include "index/readers/formats/text_header.h"
-
-#include <fmt/format.h>
 
 #include <vtkAMReXGridReader.h>
 #include <vtkCGNSReader.h>
@@ -33,7 +30,7 @@ MeshSource exodus_source(const fs::path& path) {
     // Exodus files are NetCDF, classic or on HDF5. VTK would ask any other file for its sizes, too.
     const std::string head = head_of(path, 8);
     if (!head.starts_with("CDF") && !head.starts_with("\x89HDF"))
-        throw Error(fmt::format("{}: not Exodus: expected NetCDF", path.string()));
+        throw Error("{}: not Exodus: expected NetCDF", path.string());
     const vtkNew<vtkExodusIIReader> reader;
     reader->SetFileName(path.c_str());
     reader->ApplyDisplacementsOff();
@@ -104,11 +101,10 @@ MeshSource openfoam_source(const fs::path& path) {
     for (const char* needed : {"system/controlDict", "constant/polyMesh"})
         if (!fs::exists(folder / needed, ignored) &&
             !(divided && needed == std::string_view("constant/polyMesh")))
-            throw Error(
-                fmt::format("{}: an OpenFOAM case without {}{}", path.string(), needed,
-                            is_collated(folder)
-                                ? ": its processors share a folder, reconstructPar puts it together"
-                                : ""));
+            throw Error("{}: an OpenFOAM case without {}{}", path.string(), needed,
+                        is_collated(folder)
+                            ? ": its processors share a folder, reconstructPar puts it together"
+                            : "");
     const vtkNew<vtkPOpenFOAMReader> reader;
     reader->SetController(vtkNew<vtkDummyController>()); // without one it crashes on parts
     reader->SetCaseType(divided ? vtkPOpenFOAMReader::DECOMPOSED_CASE
@@ -140,8 +136,7 @@ MeshSource openfoam_source(const fs::path& path) {
 MeshSource amrex_source(const fs::path& path) {
     constexpr int kEveryLevel = 64;
     if (const std::int64_t dimensions = dimensions_of_amrex(path); dimensions != 3)
-        throw Error(
-            fmt::format("{}: a plotfile of {} dimensions, expected 3", path.string(), dimensions));
+        throw Error("{}: a plotfile of {} dimensions, expected 3", path.string(), dimensions);
     const vtkNew<vtkAMReXGridReader> reader;
     reader->SetFileName(path.parent_path().c_str());
     const auto select = [raw = reader.GetPointer()] {

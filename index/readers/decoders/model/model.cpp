@@ -7,11 +7,9 @@
 #include "index/readers/process/reader_messages.h"
 #include "index/system/mapped_file.h"
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -132,8 +130,8 @@ void StatedModel::add_polygon(std::span<const std::int64_t> polygon, const std::
                               const std::string& what) {
     for (const std::int64_t corner : polygon)
         if (corner < 0 || static_cast<std::uint64_t>(corner) >= points.size())
-            throw Error(fmt::format("{}: {} has a corner at point {}: expected 0 to {}", name, what,
-                                    corner, static_cast<std::int64_t>(points.size()) - 1));
+            throw Error("{}: {} has a corner at point {}: expected 0 to {}", name, what, corner,
+                        static_cast<std::int64_t>(points.size()) - 1);
     for (std::size_t i = 2; i < polygon.size(); ++i)
         for (const std::size_t k : {std::size_t{0}, i - 1, i})
             corners.push_back(static_cast<std::uint32_t>(polygon[k]));
@@ -162,21 +160,19 @@ void take_origin(std::string_view comment, bool in_floats, glm::dvec3& origin) {
 
 TriangleMesh finished(StatedModel model, const std::string& name) {
     if (model.corners.empty())
-        throw Error(fmt::format("{}: holds no triangles ({} points): expected faces", name,
-                                model.points.size()));
+        throw Error("{}: holds no triangles ({} points): expected faces", name,
+                    model.points.size());
     if (model.corners.size() / 3 > kMostModelTriangles ||
         model.points.size() > std::size_t{3} * kMostModelTriangles)
-        throw Error(fmt::format("{}: {} triangles, expected at most {}", name,
-                                model.corners.size() / 3, kMostModelTriangles));
+        throw Error("{}: {} triangles, expected at most {}", name, model.corners.size() / 3,
+                    kMostModelTriangles);
     glm::dvec3 low(kMostCoordinate), high(-kMostCoordinate);
     for (std::size_t i = 0; i < model.points.size(); ++i) {
         const glm::dvec3& point = model.points[i];
         for (int axis = 0; axis < 3; ++axis)
             if (!(std::abs(point[axis]) <= kMostCoordinate))
-                throw Error(
-                    fmt::format("{}: point {} has the coordinate {}: expected a number of at "
-                                "most {:g}",
-                                name, i, point[axis], kMostCoordinate));
+                throw Error("{}: point {} has the coordinate {}: expected a number of at most {:g}",
+                            name, i, point[axis], kMostCoordinate);
         low = glm::min(low, point);
         high = glm::max(high, point);
     }

@@ -52,7 +52,7 @@ class ModelText {
     /// What follows the line.
     std::string_view rest() const { return rest_; }
     [[noreturn]] void fail(const std::string& what) const {
-        throw Error(fmt::format("{}: line {}: {}", name_, number_, what));
+        throw Error("{}: line {}: {}", name_, number_, what);
     }
     static std::string shortened(std::string_view text) {
         constexpr std::size_t kMost = 40;

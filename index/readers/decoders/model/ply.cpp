@@ -9,7 +9,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <optional>
 
 namespace isochron::index {
@@ -162,8 +161,8 @@ class PlyValues {
     }
     void expect_end() const {
         if (form_ != PlyForm::text && !bytes_.empty())
-            throw Error(fmt::format("{}: {} bytes behind the last element, expected none", name_,
-                                    bytes_.size()));
+            throw Error("{}: {} bytes behind the last element, expected none", name_,
+                        bytes_.size());
     }
 
   private:
@@ -177,12 +176,11 @@ class PlyValues {
         return form_ == PlyForm::text ? text_.line().size() : bytes_.size();
     }
     [[noreturn]] void fail(const std::string& what) const {
-        throw Error(fmt::format("{}: {} {} {}", name_, ModelText::shortened(element_->name),
-                                number_, what));
+        throw Error("{}: {} {} {}", name_, ModelText::shortened(element_->name), number_, what);
     }
     [[noreturn]] void fail_at_end() const {
-        throw Error(fmt::format("{}: ends within {} {}: expected {}", name_,
-                                ModelText::shortened(element_->name), number_, element_->count));
+        throw Error("{}: ends within {} {}: expected {}", name_,
+                    ModelText::shortened(element_->name), number_, element_->count);
     }
 
     PlyForm form_;
@@ -220,11 +218,9 @@ StatedModel ply_model(std::span<const std::byte> bytes, const std::string& name)
         for (const PlyProperty& property : element.properties)
             axes |= axis_of(property) < 3 ? std::size_t{1} << axis_of(property) : 0;
         if (vertices && axes != 7)
-            throw Error(
-                fmt::format("{}: element vertex lacks a place: expected properties x, y, z", name));
+            throw Error("{}: element vertex lacks a place: expected properties x, y, z", name);
         if (faces && std::ranges::none_of(element.properties, is_corners))
-            throw Error(
-                fmt::format("{}: element face: expected a property list vertex_indices", name));
+            throw Error("{}: element face: expected a property list vertex_indices", name);
         for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
             values.begin(element, i);
             glm::dvec3 place(0.0);

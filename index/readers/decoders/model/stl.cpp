@@ -18,8 +18,8 @@ StatedModel stl_in_binary(std::span<const std::byte> bytes, const std::string& n
     std::memcpy(&count, &bytes[kStlHeader], sizeof count);
     const std::uint64_t expected = kStlHeader + sizeof count + kStlTriangle * std::uint64_t{count};
     if (bytes.size() != expected)
-        throw Error(fmt::format("{}: STL of {} triangles: expected {} bytes, got {}", name, count,
-                                expected, bytes.size()));
+        throw Error("{}: STL of {} triangles: expected {} bytes, got {}", name, count, expected,
+                    bytes.size());
     StatedModel model;
     const std::string_view header(reinterpret_cast<const char*>(bytes.data()), kStlHeader);
     if (header.starts_with("isochron "))
@@ -84,8 +84,8 @@ StatedModel stl_model(std::span<const std::byte> bytes, const std::string& name)
     if (bytes.size() < kStlHeader + 4) {
         if (solid)
             return stl_in_text(bytes, name);
-        throw Error(fmt::format("{}: {} bytes, expected STL: 'solid', or a header of 84 bytes",
-                                name, bytes.size()));
+        throw Error("{}: {} bytes, expected STL: 'solid', or a header of 84 bytes", name,
+                    bytes.size());
     }
     std::uint32_t count = 0;
     std::memcpy(&count, &bytes[kStlHeader], sizeof count);

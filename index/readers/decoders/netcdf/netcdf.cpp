@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 namespace isochron::index {
@@ -41,9 +40,8 @@ std::vector<std::string> bounds_in(const NetcdfFile& file) {
     for (const NetcdfVariable& variable : file.variables())
         if (variable.dimensions.size() > 1 && found.size() < kListed)
             found.push_back(text(variable));
-    throw Error(fmt::format("{}: holds no array with three dimensions of more than one vertex "
-                            "besides time{}{}",
-                            file.name(), found.empty() ? "" : ": ", fmt::join(found, ", ")));
+    throw Error("{}: holds no array with three dimensions of more than one vertex besides time{}{}",
+                file.name(), found.empty() ? "" : ": ", fmt::join(found, ", "));
 }
 
 bool is_volume(const NetcdfFile& file, const NetcdfVariable& variable) {
@@ -80,7 +78,7 @@ Offered offered_in(const NetcdfFile& file, const ReadOptions& options) {
          by_pattern ? std::vector{matching_arrays(paths, *options.array, file.name())}
                     : grouped_arrays(paths, has_time)) {
         if (!array.or_else.empty() && !options.any_array)
-            throw Error(fmt::format("{}: {}", file.name(), which_steps(array)));
+            throw Error("{}: {}", file.name(), which_steps(array));
         if (!array.or_else.empty() && offered.notes.empty())
             offered.notes.push_back(which_steps(array));
         std::vector<const NetcdfVariable*>& steps = offered.steps.emplace_back();
@@ -104,9 +102,9 @@ std::vector<NetcdfVariable> choose_variables(const NetcdfFile& file, const ReadO
     if (options.array) {
         const auto named = std::ranges::find(variables, *options.array, &NetcdfVariable::name);
         if (named != variables.end() && !is_volume(file, *named))
-            throw Error(fmt::format("{}: array {}, expected three dimensions of more than one "
-                                    "vertex besides time",
-                                    file.name(), text(*named)));
+            throw Error(
+                "{}: array {}, expected three dimensions of more than one vertex besides time",
+                file.name(), text(*named));
         name = *options.array;
         if (named != variables.end())
             return {*named};
@@ -129,12 +127,12 @@ std::vector<NetcdfVariable> choose_variables(const NetcdfFile& file, const ReadO
 void expect_no_other_format(const NetcdfFile& file) {
     for (const NetcdfVariable& variable : file.variables())
         if (file.text(variable, "varid").starts_with("MINC standard variable"))
-            throw Error(fmt::format("{}: MINC 1, which scales each slice in its own way, expected "
-                                    "plain NetCDF; mnc2nii of the MINC tools makes NIfTI of it",
-                                    file.name()));
+            throw Error("{}: MINC 1, which scales each slice in its own way, expected plain "
+                        "NetCDF; mnc2nii of the MINC tools makes NIfTI of it",
+                        file.name());
     if (!file.variables().empty() &&
         file.text(file.at(""), "Conventions").find("AMBER") != std::string::npos)
-        throw Error(fmt::format("{}: a trajectory of AMBER, expected volumes", file.name()));
+        throw Error("{}: a trajectory of AMBER, expected volumes", file.name());
 }
 
 /// Notes the sizes of cells that a weather model writes for the whole file (WRF: DX, DY). They say
@@ -173,8 +171,7 @@ class NetcdfVolume final : public DecodedFile {
         member_ = member_of(array, layout_, options);
         steps_ = layout_.time ? array.axes[*layout_.time].length : 1;
         if (steps_ == 0)
-            throw Error(
-                fmt::format("{}: {} has 0 steps, expected at least 1", name, text(variable_)));
+            throw Error("{}: {} has 0 steps, expected at least 1", name, text(variable_));
         size_grid(array);
         file_.expect_room(variable_);
         if (layout_.time)
@@ -207,7 +204,6 @@ class NetcdfVolume final : public DecodedFile {
         part_ = crop_description(info_, options, name);
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return steps_; }
 
     /// Whole chunks, since HDF5 decompresses a whole chunk for each request of a part of it.
@@ -303,14 +299,12 @@ class NetcdfVolume final : public DecodedFile {
     /// @throws Error naming the file: groups that are the steps hold several, or differ
     void expect_alike() const {
         if (steps_ > 1)
-            throw Error(fmt::format("{}: each of {} groups holds several steps, choose one with "
-                                    "--array {}",
-                                    file_.name(), variables_.size(), variable_.name));
+            throw Error("{}: each of {} groups holds several steps, choose one with --array {}",
+                        file_.name(), variables_.size(), variable_.name);
         for (const NetcdfVariable& variable : variables_)
             if (variable.type != variable_.type ||
                 scaling_by(attributes_of(file_, variable), variable.name) != info_.scaling)
-                throw Error(fmt::format("{}: {} is not as {}", file_.name(), variable.name,
-                                        variable_.name));
+                throw Error("{}: {} is not as {}", file_.name(), variable.name, variable_.name);
     }
 
     NetcdfFile file_;
@@ -321,7 +315,6 @@ class NetcdfVolume final : public DecodedFile {
     std::size_t member_ = 0;
     MissingValues missing_;
     ChosenScalar chosen_;
-    SeriesInfo info_;
     std::optional<VolumePart> part_;
     std::size_t steps_ = 1;
 };

@@ -42,9 +42,7 @@ class ClassicHeader {
     }
 
   private:
-    [[noreturn]] void fail(const std::string& what) const {
-        throw Error(fmt::format("{}: {}", file_, what));
-    }
+    [[noreturn]] void fail(const std::string& what) const { throw Error("{}: {}", file_, what); }
 
     std::uint64_t number(std::size_t size) {
         if (size > bytes_.size() - at_)

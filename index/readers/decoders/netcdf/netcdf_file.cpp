@@ -65,8 +65,7 @@ NetcdfFile::NetcdfFile(const fs::path& path, bool parts) : path_(path), name_(pa
     if (is_classic_netcdf(path))
         expect_whole_classic_netcdf(path);
     else if (head_of(path, 8) != "\x89HDF\r\n\x1a\n")
-        throw Error(
-            fmt::format("{}: not NetCDF: it starts neither with CDF nor as HDF5 does", name_));
+        throw Error("{}: not NetCDF: it starts neither with CDF nor as HDF5 does", name_);
     constexpr std::size_t kSmallestBlock = 256; // that the library has for classic files
     std::size_t block = parts ? kSmallestBlock : NC_SIZEHINT_DEFAULT;
     expect(nc__open(name_.c_str(), NC_NOWRITE, &block, &file_), "damaged or truncated");
@@ -322,7 +321,7 @@ void NetcdfFile::expect_room(const NetcdfVariable& variable) const {
 
 void NetcdfFile::expect(int status, const std::string& what) const {
     if (status != NC_NOERR)
-        throw Error(fmt::format("{}: {}: {}", name_, what, nc_strerror(status)));
+        throw Error("{}: {}: {}", name_, what, nc_strerror(status));
 }
 
 } // namespace isochron::index

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <utility>
-#include <vector>
 
 namespace isochron::index {
 namespace {

@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace isochron::index {
@@ -58,10 +57,9 @@ TiffStack stack_in(const TiffFile& file, const fs::path& path, const ReadOptions
     if (auto stack = lsm_stack(file.lsm_record(), file.pages(), bytes_at, name)) {
         constexpr std::uint64_t kMost = std::uint64_t{1} << 32;
         if (file_bytes(path) >= kMost)
-            throw Error(fmt::format("{}: LSM of 4 GiB or more, whose places have wrapped, expected "
-                                    "less; bfconvert IN OUT.ome.tif of Bio-Formats makes OME-TIFF "
-                                    "of it",
-                                    name));
+            throw Error("{}: LSM of 4 GiB or more, whose places have wrapped, expected less; "
+                        "bfconvert IN OUT.ome.tif of Bio-Formats makes OME-TIFF of it",
+                        name);
         return *stack;
     }
     if (auto stack = metamorph_stack(bytes_at))
@@ -101,9 +99,7 @@ class TiffVolume final : public DecodedFile {
             {std::int64_t{shape.width}, shape.height, static_cast<std::int64_t>(stack_.slices)},
             name);
         expect_few_steps(stack_.frames, name);
-        info_.arrays = chosen_.offered;
-        info_.array = chosen_.label();
-        info_.type = chosen_.value_type();
+        chosen_.describe(info_);
         if (stack_.field_of_view.x > 0 && stack_.field_of_view.y > 0) {
             set_spacing(stack_.axes[0], stack_.field_of_view.x / shape.width, "um");
             set_spacing(stack_.axes[1], stack_.field_of_view.y / shape.height, "um");
@@ -124,7 +120,6 @@ class TiffVolume final : public DecodedFile {
             stack_.frames = info_.times.size();
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return stack_.frames; }
     std::uint32_t slices_at_once() const override { return slices_worth_asking(info_); }
     std::uint64_t decoded_bytes() const override {
@@ -232,8 +227,8 @@ class TiffVolume final : public DecodedFile {
             plane = stack_.planes[number];
         TiffFile& file = file_of(plane);
         if (plane.page >= file.pages())
-            throw Error(fmt::format("{}: truncated: {} pages, page {} is described", file.name(),
-                                    file.pages(), plane.page));
+            throw Error("{}: truncated: {} pages, page {} is described", file.name(), file.pages(),
+                        plane.page);
         Grid slice = info_.grid;
         slice.vertices[2] = 1;
         convert_planes(chosen_, slice, out, file.name(),
@@ -252,8 +247,8 @@ class TiffVolume final : public DecodedFile {
             other_ = std::make_unique<TiffFile>(path);
             other_path_ = path;
             if (other_->shape() != first_.shape())
-                throw Error(fmt::format("{}: {}, {} has {}", path.string(), text(other_->shape()),
-                                        path_.string(), text(first_.shape())));
+                throw Error("{}: {}, {} has {}", path.string(), text(other_->shape()),
+                            path_.string(), text(first_.shape()));
         }
         return *other_;
     }
@@ -263,7 +258,6 @@ class TiffVolume final : public DecodedFile {
     TiffFile first_;
     TiffStack stack_;
     ChosenScalar chosen_;
-    SeriesInfo info_;
     std::size_t channel_ = 0;
     bool frames_are_slices_ = false;
     std::unique_ptr<TiffFile> other_;

@@ -136,7 +136,7 @@ TiffFile::~TiffFile() {
 
 void TiffFile::fail(const std::string& what) const {
     const std::string& words = words_of_libtiff();
-    throw Error(fmt::format("{}: {}{}{}", name_, what, words.empty() ? "" : ": ", words));
+    throw Error("{}: {}{}{}", name_, what, words.empty() ? "" : ": ", words);
 }
 
 TiffShape TiffFile::shape_of_page() const {
@@ -147,14 +147,14 @@ TiffShape TiffFile::shape_of_page() const {
     const auto type = sample_type(file_);
     constexpr std::uint32_t kMostSamples = 1000;
     if (!type || (is_bilevel(file_) && shape.samples > 1))
-        throw Error(fmt::format("{}: {} bits in format {}, expected integers of 1, 8, 16, 32 or 64 "
-                                "bits, f16, f32 or f64",
-                                name_, field<std::uint16_t>(file_, TIFFTAG_BITSPERSAMPLE, 1),
-                                field<std::uint16_t>(file_, TIFFTAG_SAMPLEFORMAT, 1)));
+        throw Error("{}: {} bits in format {}, expected integers of 1, 8, 16, 32 or 64 bits, f16, "
+                    "f32 or f64",
+                    name_, field<std::uint16_t>(file_, TIFFTAG_BITSPERSAMPLE, 1),
+                    field<std::uint16_t>(file_, TIFFTAG_SAMPLEFORMAT, 1));
     shape.type = *type;
     shape.half = is_half(file_);
     if (shape.width == 0 || shape.height == 0 || shape.samples == 0 || shape.samples > kMostSamples)
-        throw Error(fmt::format("{}: a page of {}", name_, text(shape)));
+        throw Error("{}: a page of {}", name_, text(shape));
     return shape;
 }
 
@@ -226,7 +226,7 @@ void TiffFile::list_pages() {
                  field<std::uint16_t>(file_, TIFFTAG_SAMPLESPERPIXEL, 1) *
                  field<std::uint16_t>(file_, TIFFTAG_BITSPERSAMPLE, 1) / 8;
         if (offsets_.size() > kMostPages)
-            throw Error(fmt::format("{}: more than {} pages", name_, kMostPages));
+            throw Error("{}: more than {} pages", name_, kMostPages);
     } while (TIFFReadDirectory(file_));
     if (!words_of_libtiff().empty())
         fail(fmt::format("damaged behind page {}", offsets_.size()));
@@ -257,14 +257,13 @@ void TiffFile::take_appended(std::size_t pages) {
                           TIFFGetField(file_, TIFFTAG_STRIPOFFSETS, &offsets) && offsets;
     const std::uint64_t page = std::uint64_t{shape_.width} * shape_.height * shape_.stored_bytes();
     if (!is_plain || pages > kMostPages)
-        throw Error(fmt::format("{}: truncated: {} pages, its description has {}", name_,
-                                offsets_.size(), pages));
+        throw Error("{}: truncated: {} pages, its description has {}", name_, offsets_.size(),
+                    pages);
     appended_at_ = offsets[0];
     const std::uint64_t size = file_bytes(name_);
     if (appended_at_ > size || (size - appended_at_) / page < pages)
-        throw Error(fmt::format("{}: truncated: {} bytes, expected {} for the {} pages of its "
-                                "description",
-                                name_, size, appended_at_ + page * pages, pages));
+        throw Error("{}: truncated: {} bytes, expected {} for the {} pages of its description",
+                    name_, size, appended_at_ + page * pages, pages);
     offsets_.assign(pages, offsets_.front());
 }
 
@@ -276,8 +275,7 @@ void TiffFile::go_to(std::size_t page) {
         fail(fmt::format("page {} is damaged", page));
     page_ = page;
     if (const TiffShape is = shape_of_page(); is != shape_)
-        throw Error(fmt::format("{}: page {} is {}, page {} {}", name_, page, text(is), shaped_,
-                                text(shape_)));
+        throw Error("{}: page {} is {}, page {} {}", name_, page, text(is), shaped_, text(shape_));
     if (field<std::uint16_t>(file_, TIFFTAG_COMPRESSION, COMPRESSION_NONE) == COMPRESSION_JPEG)
         TIFFSetField(file_, TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
 }
@@ -303,7 +301,7 @@ void TiffFile::read_stored(std::size_t page, std::uint32_t sample, std::span<std
 
 void TiffFile::read_appended(std::size_t page, std::span<std::byte> out) {
     if (InputFile(name_).read(appended_at_ + page * out.size(), out) < out.size())
-        throw Error(fmt::format("{}: page {} cannot be read", name_, page));
+        throw Error("{}: page {} cannot be read", name_, page);
     const std::size_t size = shape_.stored_bytes();
     if (TIFFIsByteSwapped(file_))
         for (std::size_t i = 0; i + size <= out.size(); i += size)

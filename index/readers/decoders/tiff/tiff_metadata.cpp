@@ -16,7 +16,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <set>
 #include <sstream>
@@ -29,8 +28,8 @@ constexpr std::size_t kMostPlanes = 1 << 22;
 
 std::size_t checked_count(double value, const std::string& what, const std::string& file) {
     if (!(value >= 1) || value > static_cast<double>(kMostPlanes) || value != std::floor(value))
-        throw Error(fmt::format("{}: {} {} in its description, expected 1 to {}", file, what, value,
-                                kMostPlanes));
+        throw Error("{}: {} {} in its description, expected 1 to {}", file, what, value,
+                    kMostPlanes);
     return static_cast<std::size_t>(value);
 }
 
@@ -75,8 +74,7 @@ class OmePlanes {
         std::string sorted = order_;
         std::ranges::sort(sorted);
         if (sorted != "CTXYZ" || !order_.starts_with("XY"))
-            throw Error(fmt::format("{}: DimensionOrder {}, expected XY and then C, Z and T", file,
-                                    order_));
+            throw Error("{}: DimensionOrder {}, expected XY and then C, Z and T", file, order_);
         const auto* data = child(&pixels, "TiffData");
         if (!data)
             fill({}, 0, 0, planes_.size());
@@ -260,7 +258,7 @@ TiffStack ome_stack(const std::string& description, std::uint32_t samples, const
                     const std::string& file) {
     tinyxml2::XMLDocument document;
     if (document.Parse(description.c_str(), description.size()) != tinyxml2::XML_SUCCESS)
-        throw Error(fmt::format("{}: damaged OME-XML: {}", file, document.ErrorName()));
+        throw Error("{}: damaged OME-XML: {}", file, document.ErrorName());
     const auto* root = document.RootElement();
     const auto* image = root ? child(root, "Image") : nullptr;
     TiffStack stack;
@@ -272,7 +270,7 @@ TiffStack ome_stack(const std::string& description, std::uint32_t samples, const
     }
     const auto* pixels = image ? child(image, "Pixels") : nullptr;
     if (!pixels)
-        throw Error(fmt::format("{}: its OME-XML has no pixels", file));
+        throw Error("{}: its OME-XML has no pixels", file);
     const auto size = [&](const char* name) {
         return checked_count(attribute_of_ome(*pixels, name, 1), name, file);
     };
@@ -280,7 +278,7 @@ TiffStack ome_stack(const std::string& description, std::uint32_t samples, const
     stack.slices = size("SizeZ");
     stack.frames = size("SizeT");
     if (product_of(stack) > kMostPlanes)
-        throw Error(fmt::format("{}: more than {} planes", file, kMostPlanes));
+        throw Error("{}: more than {} planes", file, kMostPlanes);
     const std::array<std::string, 3> names{"PhysicalSizeX", "PhysicalSizeY", "PhysicalSizeZ"};
     for (std::size_t axis = 0; axis < 3; ++axis)
         set_spacing(stack.axes[axis], attribute_of_ome(*pixels, names[axis].c_str(), 0),
@@ -430,7 +428,7 @@ TiffStack stack_of(const std::string& description, std::size_t pages, std::uint3
 void keep_whole_frames(TiffStack& stack, const std::function<bool(const TiffPlane&)>& is_there,
                        const std::string& file) {
     if (product_of(stack) > kMostPlanes)
-        throw Error(fmt::format("{}: more than {} planes", file, kMostPlanes));
+        throw Error("{}: more than {} planes", file, kMostPlanes);
     const std::size_t of_frame = stack.channels * stack.slices, all = of_frame * stack.frames;
     if (stack.planes.empty() && is_there({"", all - 1, true}))
         return;
@@ -463,8 +461,8 @@ void keep_whole_frames(TiffStack& stack, const std::function<bool(const TiffPlan
     const std::string lacking =
         fmt::format("{} of {} planes are missing, as of a stopped run", missing, all);
     if (whole.frames == 0)
-        throw Error(fmt::format("{}: {}: none of its {} step{} is whole", file, lacking,
-                                stack.frames, stack.frames == 1 ? "" : "s"));
+        throw Error("{}: {}: none of its {} step{} is whole", file, lacking, stack.frames,
+                    stack.frames == 1 ? "" : "s");
     if (!timed && !gap) // they begin at 0, and are equally far apart
         whole.time.at.clear();
     whole.notes.push_back(fmt::format("{}: the {} whole step{} of {} {} read", lacking,

@@ -205,16 +205,14 @@ std::optional<TiffStack> lsm_stack(const std::string& record, std::size_t pages,
     };
     constexpr std::size_t kPositions = 264, kTiles = 268;
     if (positions(kPositions) > 1 || positions(kTiles) > 1)
-        throw Error(
-            fmt::format("{}: LSM of {} positions and {} tiles, expected one of each; bfconvert "
-                        "-series 0 IN OUT.ome.tif of Bio-Formats makes OME-TIFF of it",
-                        file, positions(kPositions), positions(kTiles)));
+        throw Error("{}: LSM of {} positions and {} tiles, expected one of each; bfconvert -series "
+                    "0 IN OUT.ome.tif of Bio-Formats makes OME-TIFF of it",
+                    file, positions(kPositions), positions(kTiles));
     TiffStack stack{.slices = count(16), .frames = count(24)};
     if (stack.slices * stack.frames > pages) {
         const std::size_t whole = pages / stack.slices;
         if (whole == 0)
-            throw Error(fmt::format("{}: truncated: {} pages, a step has {} slices", file, pages,
-                                    stack.slices));
+            throw Error("{}: truncated: {} pages, a step has {} slices", file, pages, stack.slices);
         stack.notes.push_back(
             fmt::format("{} of {} pages are there: the {} whole step{} of {} {} read", pages,
                         stack.slices * stack.frames, whole, whole == 1 ? "" : "s", stack.frames,

@@ -38,33 +38,32 @@ ListedFiles decode_pvd(const std::filesystem::path& path) {
     expect_shallow(text, name);
     tinyxml2::XMLDocument xml;
     if (xml.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
-        throw Error(fmt::format("{}: cannot be read: line {}: its XML is damaged ({})", name,
-                                xml.ErrorLineNum(), xml.ErrorName()));
+        throw Error("{}: cannot be read: line {}: its XML is damaged ({})", name,
+                    xml.ErrorLineNum(), xml.ErrorName());
     const tinyxml2::XMLElement* const root = xml.RootElement();
     const tinyxml2::XMLElement* const collection =
         root ? root->FirstChildElement("Collection") : nullptr;
     if (!collection)
-        throw Error(fmt::format("{}: not a ParaView collection", name));
+        throw Error("{}: not a ParaView collection", name);
     ListedFiles files;
     for (const auto* set = collection->FirstChildElement("DataSet"); set;
          set = set->NextSiblingElement("DataSet")) {
         const char* const listed = set->Attribute("file");
         if (!listed)
-            throw Error(fmt::format("{}: DataSet {} names no file", name, files.size()));
+            throw Error("{}: DataSet {} names no file", name, files.size());
         const char* const stated = set->Attribute("timestep");
         if (!stated)
-            throw Error(fmt::format("{}: {} has no timestep", name, listed));
+            throw Error("{}: {} has no timestep", name, listed);
         const auto time = time_in(stated);
         if (!time)
-            throw Error(
-                fmt::format("{}: {}: timestep \"{}\", expected a number", name, listed, stated));
+            throw Error("{}: {}: timestep \"{}\", expected a number", name, listed, stated);
         const char *part = set->Attribute("part"), *group = set->Attribute("group");
         files.push_back({.path = file_named_in(path, listed),
                          .time = *time,
                          .part = fmt::format("{} of {}", part ? part : "0", group ? group : "")});
     }
     if (files.empty())
-        throw Error(fmt::format("{}: an empty collection", name));
+        throw Error("{}: an empty collection", name);
     return files;
 }
 

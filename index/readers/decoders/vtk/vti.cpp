@@ -55,8 +55,8 @@ void expect_whole(const std::vector<VtiPiece>& pieces, const Grid& grid, const s
         cells += std::min(count_of(sizes_of(piece.extent, true)).value_or(grid.cell_count()),
                           grid.cell_count());
     if (cells < grid.cell_count())
-        throw Error(fmt::format("{}: its pieces hold {} cells, the whole extent has {}", file,
-                                cells, grid.cell_count()));
+        throw Error("{}: its pieces hold {} cells, the whole extent has {}", file, cells,
+                    grid.cell_count());
 }
 
 // Checks that the file is large enough. A value takes at least a digit and a blank as text, and 4/3
@@ -74,8 +74,7 @@ void expect_bytes(const ChosenScalar& chosen, const VtiDocument& document, const
     const double least =
         text ? stored : stored * static_cast<double>(size_of(*chosen.array.type)) / best;
     if (least > static_cast<double>(size))
-        throw Error(
-            fmt::format("{}: truncated: {} vertices in {} bytes", file, grid.vertex_count(), size));
+        throw Error("{}: truncated: {} vertices in {} bytes", file, grid.vertex_count(), size);
 }
 
 class VtiFile final : public DecodedFile {
@@ -84,7 +83,7 @@ class VtiFile final : public DecodedFile {
         const std::string name = path_.string();
         const std::string_view markup = markup_of(file_);
         if (markup.find("<VTKFile") == markup.npos || markup.find("ImageData") == markup.npos)
-            throw Error(fmt::format("{}: not VTK XML image data", name));
+            throw Error("{}: not VTK XML image data", name);
         expect_end(file_, name);
         expect_shallow(markup, name);
         expect_names(markup, name);
@@ -104,7 +103,6 @@ class VtiFile final : public DecodedFile {
         take_time();
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return 1; }
 
     std::uint32_t slices_at_once() const override { return slices_of_vtk(chosen_, info_); }
@@ -136,9 +134,7 @@ class VtiFile final : public DecodedFile {
                 for (const VtiArray& each : document_.pieces.front().arrays(on_cells))
                     arrays.push_back(each.array);
         chosen_ = choose_scalar(without_flags(std::move(arrays)), options, name);
-        info_.arrays = chosen_.offered;
-        info_.array = chosen_.label();
-        info_.type = chosen_.value_type();
+        chosen_.describe(info_);
         info_.notes = chosen_.notes();
     }
 
@@ -148,9 +144,9 @@ class VtiFile final : public DecodedFile {
                 if (field.array.name != name)
                     continue;
                 if (!field.array.type)
-                    throw Error(fmt::format("{} is of another type than VTK's, expected Int8 to "
-                                            "UInt64, Float32 or Float64",
-                                            where(name)));
+                    throw Error("{} is of another type than VTK's, expected Int8 to UInt64, "
+                                "Float32 or Float64",
+                                where(name));
                 std::array<std::byte, 8> bytes{};
                 const std::size_t size = size_of(*field.array.type);
                 read_vti_values(field.place, document_.encoding, *field.array.type,
@@ -193,8 +189,8 @@ class VtiFile final : public DecodedFile {
             const VtiArray* const array = array_in(piece, wanted.name, wanted.on_cells);
             if (!array || array->array.type != wanted.type ||
                 array->array.components != wanted.components)
-                throw Error(fmt::format("{}: array {} is not the same in all pieces",
-                                        path_.string(), wanted.name));
+                throw Error("{}: array {} is not the same in all pieces", path_.string(),
+                            wanted.name);
             if (piece.extent == document_.extent) {
                 read_vti_values(array->place, document_.encoding, *wanted.type, out,
                                 where(wanted.name));
@@ -202,8 +198,7 @@ class VtiFile final : public DecodedFile {
             }
             const auto count = count_of(sizes);
             if (!count || *count > out.size() / tuple)
-                throw Error(
-                    fmt::format("{}: a piece is larger than the whole extent", path_.string()));
+                throw Error("{}: a piece is larger than the whole extent", path_.string());
             std::vector<std::byte> part(*count * tuple);
             read_vti_values(array->place, document_.encoding, *wanted.type, part,
                             where(wanted.name));
@@ -275,7 +270,6 @@ class VtiFile final : public DecodedFile {
     fs::path path_;
     MappedFile file_;
     VtiDocument document_;
-    SeriesInfo info_;
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_;
     bool decoded_ = false;

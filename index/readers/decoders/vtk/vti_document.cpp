@@ -55,7 +55,7 @@ class DocumentReader {
                                             ? root->FirstChildElement("ImageData")
                                             : nullptr;
         if (!image)
-            throw Error(fmt::format("{}: not VTK XML image data", name_));
+            throw Error("{}: not VTK XML image data", name_);
         take_encoding(*root);
         document_.extent = extent_in(*image, "WholeExtent");
         take_numbers(*image, "Origin", document_.origin);
@@ -75,7 +75,7 @@ class DocumentReader {
 
   private:
     [[noreturn]] void fail(std::string_view what) const {
-        throw Error(fmt::format("{}: cannot be read: {}", name_, what));
+        throw Error("{}: cannot be read: {}", name_, what);
     }
 
     /// Appended data begin behind an underscore, and end with the file's last element.
@@ -221,9 +221,8 @@ class DocumentReader {
                 fail(fmt::format("offset `{}` of array {}, expected a number", excerpt(text),
                                  array.array.name));
             if (offset > appended_.size())
-                throw Error(
-                    fmt::format("{}: truncated: array {} begins at byte {} of {} appended ones",
-                                name_, array.array.name, offset, appended_.size()));
+                throw Error("{}: truncated: array {} begins at byte {} of {} appended ones", name_,
+                            array.array.name, offset, appended_.size());
             array.place = {appended_.substr(offset), appended_as_};
         } else {
             array.place = {text_of(element),

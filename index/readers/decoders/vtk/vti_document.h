@@ -5,8 +5,6 @@
 #include "index/system/mapped_file.h"
 
 #include <array>
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 

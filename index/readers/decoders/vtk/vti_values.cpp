@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -23,7 +22,7 @@ namespace {
 constexpr std::string_view kBlanks = " \t\r\n";
 
 [[noreturn]] void fail(const std::string& where, std::string_view what) {
-    throw Error(fmt::format("{}: {}", where, what));
+    throw Error("{}: {}", where, what);
 }
 
 /// Bytes one after another, as they are or in base64.

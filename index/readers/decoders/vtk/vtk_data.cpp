@@ -14,8 +14,6 @@
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
 
-#include <fmt/format.h>
-
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkDataSetReader.h>
@@ -41,7 +39,7 @@ vtkSmartPointer<vtkDataObject> read_xml(const fs::path& path) {
     const MappedFile file(path);
     const std::string_view markup = markup_of(file);
     if (markup.find("<VTKFile") == markup.npos)
-        throw Error(fmt::format("{}: not VTK XML", name));
+        throw Error("{}: not VTK XML", name);
     expect_end(file, name);
     expect_shallow(markup, name);
     expect_names(markup, name);
@@ -50,7 +48,7 @@ vtkSmartPointer<vtkDataObject> read_xml(const fs::path& path) {
     const int type = any->ReadOutputType(path.c_str(), parallel);
     const auto reader = type < 0 ? nullptr : any->CreateReader(type, parallel);
     if (!reader)
-        throw Error(fmt::format("{}: holds no data that VTK knows", name));
+        throw Error("{}: holds no data that VTK knows", name);
     // Else it reads the coarsest level alone.
     if (auto* levels = vtkXMLUniformGridAMRReader::SafeDownCast(reader))
         levels->SetMaximumLevelsToReadByDefault(0);
@@ -87,7 +85,7 @@ class VtkData {
             const bool legacy = head_of(path_, 16).starts_with("# vtk DataFile");
             read_ = legacy ? read_legacy(path_) : read_xml(path_);
             if (!read_)
-                throw Error(fmt::format("{}: holds no data that VTK knows", path_.string()));
+                throw Error("{}: holds no data that VTK knows", path_.string());
             place(*read_, options);
         });
     }
@@ -103,11 +101,10 @@ class VtkData {
         vtkSmartPointer<vtkImageData> image = vtkImageData::SafeDownCast(&read);
         auto* rectilinear = vtkRectilinearGrid::SafeDownCast(&read);
         if (!image && !rectilinear && !options.resample)
-            throw Error(fmt::format(
-                "{}: holds {}, expected image data or a rectilinear grid; "
-                "--resample NX NY NZ makes a regular grid of it, --resample-by-cell one "
-                "as fine as its smallest cell",
-                path_.string(), read.GetClassName()));
+            throw Error(
+                "{}: holds {}, expected image data or a rectilinear grid; --resample NX NY NZ "
+                "makes a regular grid of it, --resample-by-cell one as fine as its smallest cell",
+                path_.string(), read.GetClassName());
         if (!image && !rectilinear) {
             image = onto_image(read, *options.resample, path_.string());
             resampled_ = true;
@@ -133,8 +130,8 @@ class VtkData {
         StatedArray stated{.file = name, .name = {}, .axes = std::vector<StatedAxis>(3)}; // z, y, x
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (at[axis].size() != info_.grid.vertices[axis])
-                throw Error(fmt::format("{}: {} coordinates along {}, expected {}", name,
-                                        at[axis].size(), "xyz"[axis], info_.grid.vertices[axis]));
+                throw Error("{}: {} coordinates along {}, expected {}", name, at[axis].size(),
+                            "xyz"[axis], info_.grid.vertices[axis]);
             stated.axes[2 - axis].at = at[axis];
         }
         place_axes(stated, layout_of_zyx(), options, info_);
@@ -158,9 +155,7 @@ class VtkDataFile final : public DecodedFile {
             info_.notes = all_->notes();
             chosen_ = choose_scalar(without_flags(arrays_of_vtk(data)), options, path_.string());
             hidden_ = hidden_by_flags(flags_of_vtk(data, info_.grid), chosen_, info_.grid);
-            info_.arrays = chosen_.offered;
-            info_.array = chosen_.label();
-            info_.type = chosen_.value_type();
+            chosen_.describe(info_);
             if (all_->resampled())
                 info_.notes.push_back(note_on_resampling(
                     all_->read(), *vtkImageData::SafeDownCast(&data), chosen_, hidden_));
@@ -172,7 +167,6 @@ class VtkDataFile final : public DecodedFile {
         });
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return 1; }
     std::uint32_t slices_at_once() const override { return slices_of_vtk(chosen_, info_); }
     std::uint64_t decoded_bytes() const override { return bytes_of_vtk(chosen_, info_.grid); }
@@ -184,7 +178,6 @@ class VtkDataFile final : public DecodedFile {
   private:
     fs::path path_;
     std::shared_ptr<VtkData> all_; ///< shared with the file's other arrays
-    SeriesInfo info_;
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_;
 };

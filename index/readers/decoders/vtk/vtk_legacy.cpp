@@ -8,8 +8,6 @@
 #include "index/readers/formats/data_stream.h"
 #include "index/readers/formats/stored_file.h"
 
-#include <fmt/format.h>
-
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
@@ -20,7 +18,6 @@
 #include <algorithm>
 #include <iterator>
 #include <sstream>
-#include <string_view>
 
 namespace isochron::index {
 namespace {
@@ -36,13 +33,13 @@ void expect_believable(const fs::path& path) {
     std::string word;
     std::getline(head, word);
     if (!word.starts_with("# vtk DataFile"))
-        throw Error(fmt::format("{}: not a legacy VTK file", name));
+        throw Error("{}: not a legacy VTK file", name);
     std::getline(head, word); // the title may hold any word
     std::array<std::int64_t, 3> sizes{};
     std::uint64_t components = 1;
     while (head >> word) {
         if (word == "DATASET" && head >> word && word != "STRUCTURED_POINTS")
-            throw Error(fmt::format("{}: holds {}, expected STRUCTURED_POINTS", name, word));
+            throw Error("{}: holds {}, expected STRUCTURED_POINTS", name, word);
         if (word == "DIMENSIONS")
             head >> sizes[0] >> sizes[1] >> sizes[2];
         if (word == "SCALARS") {
@@ -53,13 +50,13 @@ void expect_believable(const fs::path& path) {
         }
     }
     if (sizes == std::array<std::int64_t, 3>{})
-        throw Error(fmt::format("{}: gives no DIMENSIONS", name));
+        throw Error("{}: gives no DIMENSIONS", name);
     Grid grid;
     grid.vertices = checked_vertices(sizes, name);
     components = std::max<std::uint64_t>(components, 1);
     if (grid.cell_count() > file_bytes(path) / components)
-        throw Error(fmt::format("{}: truncated: {} vertices of {} components in {} bytes", name,
-                                grid.vertex_count(), components, file_bytes(path)));
+        throw Error("{}: truncated: {} vertices of {} components in {} bytes", name,
+                    grid.vertex_count(), components, file_bytes(path));
 }
 
 class LegacyFile final : public DecodedFile {
@@ -74,9 +71,7 @@ class LegacyFile final : public DecodedFile {
                                      image.GetDirectionMatrix()->GetData(), path_.string());
             chosen_ = choose_scalar(without_flags(arrays_of_vtk(image)), options, path_.string());
             hidden_ = hidden_by_flags(flags_of_vtk(image, info_.grid), chosen_, info_.grid);
-            info_.arrays = chosen_.offered;
-            info_.array = chosen_.label();
-            info_.type = chosen_.value_type();
+            chosen_.describe(info_);
             info_.notes = chosen_.notes();
             std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
                               std::back_inserter(info_.notes));
@@ -85,7 +80,6 @@ class LegacyFile final : public DecodedFile {
         });
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return 1; }
 
     std::uint32_t slices_at_once() const override { return slices_of_vtk(chosen_, info_); }
@@ -98,7 +92,6 @@ class LegacyFile final : public DecodedFile {
 
   private:
     fs::path path_;
-    SeriesInfo info_;
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_;
     vtkNew<vtkStructuredPointsReader> reader_;

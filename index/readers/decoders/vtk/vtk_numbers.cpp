@@ -84,9 +84,8 @@ std::optional<std::string> with_stand_ins(std::string_view text, const std::stri
     if (copied == 0)
         return std::nullopt;
     if (ambiguous)
-        throw Error(fmt::format("{}: holds NaN or infinities beside {}, which VTK cannot tell "
-                                "apart",
-                                file, kHighest));
+        throw Error("{}: holds NaN or infinities beside {}, which VTK cannot tell apart", file,
+                    kHighest);
     return easy.append(text.substr(copied));
 }
 

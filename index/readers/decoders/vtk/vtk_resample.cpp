@@ -44,9 +44,9 @@ void make_sound(vtkDataObject& data, const std::string& file) {
         for (int i = 0; i < arrays.GetNumberOfArrays(); ++i) {
             vtkAbstractArray& array = *arrays.GetAbstractArray(i);
             if (array.GetNumberOfTuples() != tuples)
-                throw Error(fmt::format("{}: array {} has {} values, expected {}", file,
-                                        array.GetName() ? array.GetName() : "without a name",
-                                        array.GetNumberOfTuples(), tuples));
+                throw Error("{}: array {} has {} values, expected {}", file,
+                            array.GetName() ? array.GetName() : "without a name",
+                            array.GetNumberOfTuples(), tuples);
         }
     };
     each_grid(data, [&](vtkDataSet& grid) {
@@ -56,7 +56,7 @@ void make_sound(vtkDataObject& data, const std::string& file) {
         std::array<double, 6> box{};
         grid.GetBounds(box.data());
         if (!std::ranges::all_of(box, [](double at) { return std::isfinite(at); }))
-            throw Error(fmt::format("{}: has points that are nowhere (not finite)", file));
+            throw Error("{}: has points that are nowhere (not finite)", file);
     });
 }
 
@@ -152,15 +152,15 @@ std::array<std::uint32_t, 3> vertices_by_cells(vtkDataObject& data, const std::s
     double all = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!(high[axis] > low[axis]) || !std::isfinite(least[axis]))
-            throw Error(fmt::format("{}: holds no cells of three dimensions", file));
+            throw Error("{}: holds no cells of three dimensions", file);
         constexpr double kRounding = 1e-6;
         counts[axis] = std::ceil((high[axis] - low[axis]) / least[axis] - kRounding) + 1;
         all *= counts[axis];
     }
     if (all > kMostVertices)
-        throw Error(fmt::format("{}: its smallest cell asks for {} x {} x {} vertices, expected at "
-                                "most {:.0f}; --resample NX NY NZ says how many",
-                                file, counts[0], counts[1], counts[2], kMostVertices));
+        throw Error("{}: its smallest cell asks for {} x {} x {} vertices, expected at most "
+                    "{:.0f}; --resample NX NY NZ says how many",
+                    file, counts[0], counts[1], counts[2], kMostVertices);
     std::array<std::uint32_t, 3> vertices{};
     for (std::size_t axis = 0; axis < 3; ++axis)
         vertices[axis] = std::max(static_cast<std::uint32_t>(counts[axis]), 2u);

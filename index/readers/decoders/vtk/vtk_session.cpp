@@ -98,8 +98,7 @@ void with_vtk(const std::filesystem::path& file, const std::function<void()>& wo
     const auto messages = vtkSmartPointer<MessageCollector>::New();
     const auto fail_on_message = [&] {
         if (!messages->first_error().empty())
-            throw Error(fmt::format("{}: cannot be read: {}", file.string(),
-                                    one_line(messages->first_error())));
+            throw Error("{}: cannot be read: {}", file.string(), one_line(messages->first_error()));
     };
     try {
         const OutputWindowScope scope(messages);
@@ -111,11 +110,10 @@ void with_vtk(const std::filesystem::path& file, const std::function<void()>& wo
     } catch (const std::bad_alloc&) {
         throw; // the reader's service adds how much memory there was
     } catch (const std::length_error&) {
-        throw Error(fmt::format("{}: cannot be read: VTK took a number of it for a size that no "
-                                "memory has",
-                                file.string()));
+        throw Error("{}: cannot be read: VTK took a number of it for a size that no memory has",
+                    file.string());
     } catch (const std::exception& other) {
-        throw Error(fmt::format("{}: cannot be read: {}", file.string(), one_line(other.what())));
+        throw Error("{}: cannot be read: {}", file.string(), one_line(other.what()));
     }
     fail_on_message();
 }
@@ -154,14 +152,14 @@ void values_of_vtk(vtkDataSet& image, const ChosenScalar& chosen, const Grid& gr
     vtkDataArray* array =
         vtkDataArray::SafeDownCast(fields->GetAbstractArray(chosen.array.name.c_str()));
     if (!array)
-        throw Error(fmt::format("{}: array {} cannot be read", file, chosen.array.name));
+        throw Error("{}: array {} cannot be read", file, chosen.array.name);
     const std::uint64_t tuples = tuples_of_vtk(chosen, grid);
     if (static_cast<std::uint64_t>(array->GetNumberOfTuples()) != tuples)
-        throw Error(fmt::format("{}: array {} has {} tuples, expected {}", file, chosen.array.name,
-                                array->GetNumberOfTuples(), tuples));
+        throw Error("{}: array {} has {} tuples, expected {}", file, chosen.array.name,
+                    array->GetNumberOfTuples(), tuples);
     if (stored_type_of_vtk(array->GetDataType()) != chosen.array.type ||
         static_cast<std::uint32_t>(array->GetNumberOfComponents()) != chosen.array.components)
-        throw Error(fmt::format("{}: array {} has changed its type", file, chosen.array.name));
+        throw Error("{}: array {} has changed its type", file, chosen.array.name);
     const std::span all(static_cast<const std::byte*>(array->GetVoidPointer(0)),
                         bytes_of_vtk(chosen, grid));
     const std::uint64_t slice = all.size() / grid.vertices[2];

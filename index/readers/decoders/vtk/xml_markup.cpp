@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -46,7 +45,7 @@ void expect_end(const MappedFile& file, const std::string& name) {
     const std::span<const std::byte> tail = bytes.last(std::min(bytes.size(), kTail));
     if (std::string_view(reinterpret_cast<const char*>(tail.data()), tail.size())
             .find("</VTKFile") == std::string_view::npos)
-        throw Error(fmt::format("{}: truncated: it does not end with </VTKFile>", name));
+        throw Error("{}: truncated: it does not end with </VTKFile>", name);
 }
 
 void expect_names(std::string_view markup, const std::string& file) {
@@ -72,8 +71,7 @@ void expect_names(std::string_view markup, const std::string& file) {
     for (std::size_t at = markup.find(kArray); at != markup.npos; at = markup.find(kArray, at)) {
         const std::size_t end = behind_tag(markup, at);
         if (!has_name(markup.substr(at, end - at)) && !among_positions(at))
-            throw Error(
-                fmt::format("{}: cannot be read: an array at byte {} has no Name", file, at));
+            throw Error("{}: cannot be read: an array at byte {} has no Name", file, at);
         at = end;
     }
 }
@@ -125,8 +123,8 @@ void expect_shallow(std::string_view markup, const std::string& file) {
         else if (!tag.text.ends_with("/>"))
             ++depth;
         if (depth > kDeepest)
-            throw Error(fmt::format("{}: elements nested more than {} deep, at byte {}", file,
-                                    kDeepest, tag.at));
+            throw Error("{}: elements nested more than {} deep, at byte {}", file, kDeepest,
+                        tag.at);
     });
 }
 

@@ -20,7 +20,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace isochron::index {
@@ -52,20 +51,18 @@ class ZarrVolume final : public DecodedFile {
                                    ? axes_of(*store_, *array_)
                                    : axes_of(level.image, level.dataset, *array_)};
         } catch (const json::exception& error) {
-            throw Error(fmt::format("{}: damaged description: {}", name_, json_mistake(error)));
+            throw Error("{}: damaged description: {}", name_, json_mistake(error));
         }
         const std::vector<StatedAttributes> objects = objects_of(*store_, *array_);
         layout_ = lay_out(stated_, objects, asked, info_.notes);
         if (layout_.time && !steps_.empty())
-            throw Error(fmt::format("{}: each of {} groups holds several steps, choose one with "
-                                    "--array {}",
-                                    name_, steps_.size(), steps_.front()));
+            throw Error("{}: each of {} groups holds several steps, choose one with --array {}",
+                        name_, steps_.size(), steps_.front());
         member_ = member_of(stated_, layout_, asked);
         describe(level.attributes, objects.front(), asked);
         part_ = crop_description(info_, options, name_);
     }
 
-    const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override {
         if (!steps_.empty())
             return steps_.size();
@@ -127,7 +124,7 @@ class ZarrVolume final : public DecodedFile {
             const std::string path = image.at("datasets").at(0).at("path");
             auto finest = ZarrArray::open(*store_, path);
             if (!finest)
-                throw Error(fmt::format("{}: its image has no array {}", name_, path));
+                throw Error("{}: its image has no array {}", name_, path);
             array_ = std::move(*finest);
             return;
         }
@@ -145,8 +142,8 @@ class ZarrVolume final : public DecodedFile {
             volumes.push_back({path, fmt::format("{}", fmt::join(array->shape(), " x "))});
         }
         if (volumes.empty())
-            throw Error(fmt::format("{}: holds no array of three dimensions{}{}", name_,
-                                    paths.empty() ? "" : ", only ", fmt::join(paths, ", ")));
+            throw Error("{}: holds no array of three dimensions{}{}", name_,
+                        paths.empty() ? "" : ", only ", fmt::join(paths, ", "));
         const auto has_time = [&](const std::string& group) {
             return states_time(of_group(group));
         };
@@ -156,7 +153,7 @@ class ZarrVolume final : public DecodedFile {
         std::vector<StoredArray> offered;
         for (const GroupedArray& each : arrays) {
             if (!each.or_else.empty() && !options.any_array)
-                throw Error(fmt::format("{}: {}", name_, which_steps(each)));
+                throw Error("{}: {}", name_, which_steps(each));
             if (!each.or_else.empty() && info_.notes.empty())
                 info_.notes.push_back(which_steps(each));
             const std::size_t first = each.steps.front();
@@ -202,10 +199,9 @@ class ZarrVolume final : public DecodedFile {
             for (const std::string& label : labels)
                 offered.push_back({.name = label, .type = array_->type()});
         if (!array_->type())
-            throw Error(
-                fmt::format("{}: {} is of type {}, expected integers of up to 64 bits, bool, "
-                            "float16, float32 or float64",
-                            name_, array_name(), array_->type_name()));
+            throw Error("{}: {} is of type {}, expected integers of up to 64 bits, bool, float16, "
+                        "float32 or float64",
+                        name_, array_name(), array_->type_name());
         const std::string where = fmt::format("{}: {}", name_, array_name());
         missing_ = MissingValues(of_array, *array_->type(), fills_of(*array_), where);
         for (StoredArray& each : offered)
@@ -252,8 +248,7 @@ class ZarrVolume final : public DecodedFile {
     std::vector<std::string> labels_in(const json& attributes, std::uint64_t channels) const {
         constexpr std::uint64_t kMost = 1000;
         if (channels > kMost)
-            throw Error(
-                fmt::format("{}: {} channels, expected at most {}", name_, channels, kMost));
+            throw Error("{}: {} channels, expected at most {}", name_, channels, kMost);
         std::vector<std::string> labels;
         const json ome = attributes.value("ome", attributes);
         const json list = ome.is_object() && ome.contains("omero")
@@ -294,7 +289,7 @@ class ZarrVolume final : public DecodedFile {
         const std::string name = fmt::format("{}: {}", name_, steps_[step]);
         if (!array || array->shape() != array_->shape() || array->type() != array_->type() ||
             scaling_by(attributes_of(array->attributes()), name) != info_.scaling)
-            throw Error(fmt::format("{} is not as {}", name, steps_.front()));
+            throw Error("{} is not as {}", name, steps_.front());
         array_ = std::move(*array);
         open_step_ = step;
     }
@@ -309,7 +304,6 @@ class ZarrVolume final : public DecodedFile {
     ArrayLayout layout_;
     std::size_t member_ = 0;
     ChosenScalar chosen_;
-    SeriesInfo info_;
     std::optional<VolumePart> part_; ///< if not all is wanted
     MissingValues missing_;
     std::size_t first_channel_ = 0; ///< number of the chosen array's first component

@@ -7,9 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
-#include <utility>
 
 namespace isochron::index {
 
@@ -52,7 +50,7 @@ void ZarrArray::decode_chunk(const std::string& name, ZarrBytes& values) {
     if (vary)
         return;
     if (values.size() != bytes)
-        throw Error(fmt::format("{}: {} bytes, expected {}", name, values.size(), bytes));
+        throw Error("{}: {} bytes, expected {}", name, values.size(), bytes);
     if (said_.pipeline.big_endian && said_.texts != ZarrTexts::bytes)
         swap_bytes(std::as_writable_bytes(std::span(values)),
                    said_.texts == ZarrTexts::utf32 ? 4 : size);
@@ -109,8 +107,7 @@ bool ZarrArray::load_part(const std::vector<std::uint64_t>& at, std::size_t firs
     if (!stored)
         return false;
     if (*stored != bytes)
-        throw Error(
-            fmt::format("{}: {}: {} bytes, expected {}", store_->name(), key, *stored, bytes));
+        throw Error("{}: {}: {} bytes, expected {}", store_->name(), key, *stored, bytes);
     store_->part(key, first * size, values);
     return true;
 }
@@ -235,8 +232,8 @@ void ZarrArray::load_from_shard(const std::vector<std::uint64_t>& at, ZarrBytes&
     if (entry[0] == kNone && entry[1] == kNone)
         return;
     if (entry[0] > index.bytes || entry[1] > index.bytes - entry[0])
-        throw Error(fmt::format("{}: truncated: chunk {} of {} bytes at {} of {}", name, number,
-                                entry[1], entry[0], index.bytes));
+        throw Error("{}: truncated: chunk {} of {} bytes at {} of {}", name, number, entry[1],
+                    entry[0], index.bytes);
     values.resize(entry[1]);
     store_->part(key, entry[0], values);
     decode_chunk(name, values);
@@ -256,21 +253,21 @@ const ZarrArray::ShardIndex& ZarrArray::index_of_shard(const std::vector<std::ui
     for (std::size_t i = 0; i < shard.size(); ++i)
         if (__builtin_mul_overflow(count, said_.chunk[i] / said_.inner[i], &count) ||
             count > *bytes)
-            throw Error(fmt::format("{}: {} bytes, expected an index of {} x {} chunks", name,
-                                    *bytes, count, said_.chunk[i] / said_.inner[i]));
+            throw Error("{}: {} bytes, expected an index of {} x {} chunks", name, *bytes, count,
+                        said_.chunk[i] / said_.inner[i]);
     std::size_t size = 16 * count;
     for (const ZarrCodec& codec : said_.index.codecs)
         size += codec.name == "crc32c" ? 4 : 0;
     if (*bytes < size)
-        throw Error(fmt::format("{}: {} bytes, expected an index of {}", name, *bytes, size));
+        throw Error("{}: {} bytes, expected an index of {}", name, *bytes, size);
     index.bytes = *bytes;
     index.entries.resize(size);
     store_->part(key, said_.index_at_end ? *bytes - size : 0, index.entries);
     for (const ZarrCodec& codec : said_.index.codecs)
         decode(codec, size, name, index.entries, spare_);
     if (index.entries.size() != 16 * count)
-        throw Error(fmt::format("{}: an index of {} bytes, expected {}", name, index.entries.size(),
-                                16 * count));
+        throw Error("{}: an index of {} bytes, expected {}", name, index.entries.size(),
+                    16 * count);
     const std::size_t kept = index.entries.size();
     return shards_.keep(shard, std::move(index), kept);
 }

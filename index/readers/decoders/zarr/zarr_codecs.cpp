@@ -7,7 +7,6 @@
 #ifdef ISOCHRON_WITH_BLOSC
 #include <blosc.h>
 #endif
-#include <fmt/format.h>
 #include <lz4.h>
 #include <zlib.h>
 #include <zstd.h>
@@ -21,7 +20,7 @@ namespace isochron::index {
 namespace {
 
 [[noreturn]] void fail_at(const std::string& chunk, const ZarrCodec& codec) {
-    throw Error(fmt::format("{}: damaged: {} cannot decode it", chunk, codec.name));
+    throw Error("{}: damaged: {} cannot decode it", chunk, codec.name);
 }
 
 /// CRC-32C, Castagnoli's polynomial, as RFC 3720 has it.
@@ -115,9 +114,8 @@ ZarrCodec codec_of(const std::string& name, std::size_t element, const std::stri
                               "numcodecs.zlib"})
         if (name == known)
             return {name, element};
-    throw Error(fmt::format("{}: packed by {}, expected blosc, zstd, gzip, zlib, lz4, bz2, shuffle "
-                            "or crc32c",
-                            array, name));
+    throw Error("{}: packed by {}, expected blosc, zstd, gzip, zlib, lz4, bz2, shuffle or crc32c",
+                array, name);
 }
 
 void decode(const ZarrCodec& codec, std::size_t most, const std::string& chunk, ZarrBytes& bytes,

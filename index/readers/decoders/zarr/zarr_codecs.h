@@ -3,11 +3,8 @@
 
 #include "index/readers/decoders/zarr/zarr_store.h"
 
-#include <nlohmann/json.hpp>
-
 #include <cstddef>
 #include <string>
-#include <vector>
 
 namespace isochron::index {
 

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -30,8 +29,8 @@ std::size_t product(const std::vector<std::uint64_t>& sizes, std::size_t element
     for (const std::uint64_t size : sizes)
         bytes *= static_cast<double>(size);
     if (bytes > static_cast<double>(kMostChunk))
-        throw Error(fmt::format("{}: chunks of {} values, expected at most {} bytes", where,
-                                fmt::join(sizes, " x "), kMostChunk));
+        throw Error("{}: chunks of {} values, expected at most {} bytes", where,
+                    fmt::join(sizes, " x "), kMostChunk);
     return static_cast<std::size_t>(bytes);
 }
 
@@ -46,7 +45,7 @@ std::optional<json> json_at(const ZarrStore& store, const std::string& key) {
                                     reinterpret_cast<const char*>(bytes->data()) + bytes->size(),
                                     nullptr, false);
     if (!parsed.is_object())
-        throw Error(fmt::format("{}: {} is no JSON object", store.name(), key));
+        throw Error("{}: {} is no JSON object", store.name(), key);
     return parsed;
 }
 
@@ -157,7 +156,7 @@ std::optional<ZarrDescription> ZarrDescriber::operator()() {
             return std::nullopt;
         }
     } catch (const json::exception& error) {
-        throw Error(fmt::format("{}: damaged description: {}", where(""), json_mistake(error)));
+        throw Error("{}: damaged description: {}", where(""), json_mistake(error));
     }
     check();
     return std::move(said_);
@@ -172,13 +171,12 @@ void ZarrDescriber::check() const {
     const std::size_t rank = said_.shape.size();
     if (said_.chunk.size() != rank || (!said_.inner.empty() && said_.inner.size() != rank) ||
         rank > 16)
-        throw Error(
-            fmt::format("{}: {} dimensions, chunks of {}", where(""), rank, said_.chunk.size()));
+        throw Error("{}: {} dimensions, chunks of {}", where(""), rank, said_.chunk.size());
     for (std::size_t i = 0; i < rank; ++i)
         if (said_.chunk[i] == 0 ||
             (!said_.inner.empty() && (said_.inner[i] == 0 || said_.chunk[i] % said_.inner[i] != 0)))
-            throw Error(fmt::format("{}: chunks of {}, in it {}", where(""),
-                                    fmt::join(said_.chunk, " x "), fmt::join(said_.inner, " x ")));
+            throw Error("{}: chunks of {}, in it {}", where(""), fmt::join(said_.chunk, " x "),
+                        fmt::join(said_.inner, " x "));
     if (said_.type || said_.texts != ZarrTexts::none)
         product(said_.parts(), said_.half ? 4 : said_.element(), where(""));
 }
@@ -208,7 +206,7 @@ void ZarrDescriber::fill_with(const json& value) {
 std::vector<std::size_t> ZarrDescriber::lengths_in(const json& list) const {
     for (const json& length : list)
         if (!length.is_number_unsigned())
-            throw Error(fmt::format("{}: {}, expected a whole number", where(""), length.dump()));
+            throw Error("{}: {}, expected a whole number", where(""), length.dump());
     return list.get<std::vector<std::size_t>>();
 }
 
@@ -264,8 +262,7 @@ void ZarrDescriber::describe_v3(const json& j) {
     said_.half = said_.type_name == "float16";
     const json& grid = j.at("chunk_grid");
     if (grid.at("name") != "regular")
-        throw Error(fmt::format("{}: a chunk grid {}, expected regular", where(""),
-                                grid.at("name").dump()));
+        throw Error("{}: a chunk grid {}, expected regular", where(""), grid.at("name").dump());
     said_.chunk = lengths_in(grid.at("configuration").at("chunk_shape"));
     const json encoding = j.value("chunk_key_encoding", json::object());
     const bool slashes = encoding.value("name", "default") == "default";
@@ -301,8 +298,7 @@ ZarrPipeline ZarrDescriber::pipeline_v3(const json& codecs, bool outer) {
     std::ranges::sort(sorted);
     for (std::size_t i = 0; i < sorted.size(); ++i)
         if (sorted.size() != said_.shape.size() || sorted[i] != i)
-            throw Error(
-                fmt::format("{}: transposed by {}", where(""), fmt::join(pipeline.order, " ")));
+            throw Error("{}: transposed by {}", where(""), fmt::join(pipeline.order, " "));
     return said_.inner.empty() || !outer ? pipeline : said_.pipeline;
 }
 

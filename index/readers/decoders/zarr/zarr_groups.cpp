@@ -6,8 +6,6 @@
 
 #include "index/error.h"
 
-#include <fmt/format.h>
-
 #include <initializer_list>
 #include <utility>
 
@@ -24,7 +22,7 @@ json attributes_of_group(const ZarrStore& store, const std::string& group) {
         const auto* text = reinterpret_cast<const char*>(bytes->data());
         json parsed = json::parse(text, text + bytes->size(), nullptr, false);
         if (!parsed.is_object())
-            throw Error(fmt::format("{}: {}{} is no JSON object", store.name(), prefix, file));
+            throw Error("{}: {}{} is no JSON object", store.name(), prefix, file);
         return std::string(file) == "zarr.json" ? parsed.value("attributes", json::object())
                                                 : parsed;
     }

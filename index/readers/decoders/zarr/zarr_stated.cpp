@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <span>
 #include <sstream>
 #include <string>
 #include <utility>

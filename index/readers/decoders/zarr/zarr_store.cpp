@@ -6,14 +6,11 @@
 #include "index/error.h"
 #include "index/system/input_file.h"
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <map>
 #include <set>
-#include <span>
 #include <string_view>
 
 namespace isochron::index {
@@ -36,8 +33,7 @@ class FolderStore final : public ZarrStore {
             return false;
         const InputFile in(file);
         if (in.size() > kMostBytes)
-            throw Error(fmt::format("{}: {} bytes, expected at most {}", file.string(), in.size(),
-                                    kMostBytes));
+            throw Error("{}: {} bytes, expected at most {}", file.string(), in.size(), kMostBytes);
         into.resize(in.size());
         into.resize(in.read(0, into));
         return true;
@@ -55,8 +51,8 @@ class FolderStore final : public ZarrStore {
         const fs::path file = path_ / key;
         const InputFile in(file);
         if (in.read(at, into) != into.size())
-            throw Error(fmt::format("{}: truncated: {} bytes, expected {} at {}", file.string(),
-                                    in.size(), into.size(), at));
+            throw Error("{}: truncated: {} bytes, expected {} at {}", file.string(), in.size(),
+                        into.size(), at);
     }
 
     std::vector<std::string> names(const std::string& group) const override {
@@ -142,7 +138,7 @@ class ZipStore final : public ZarrStore {
 
   private:
     [[noreturn]] void fail(const std::string& what) const {
-        throw Error(fmt::format("{}: damaged or truncated zip file: {}", name(), what));
+        throw Error("{}: damaged or truncated zip file: {}", name(), what);
     }
 
     /// So that no memory is taken for what cannot be there.
@@ -174,7 +170,7 @@ class ZipStore final : public ZarrStore {
         const std::string tail = text_at(from, kTail);
         const std::size_t end = tail.rfind("PK\5\6");
         if (end == std::string::npos)
-            throw Error(fmt::format("{}: no zip file: it has no directory", name()));
+            throw Error("{}: no zip file: it has no directory", name());
         std::uint64_t size = number(tail, end + 12, 4), at = number(tail, end + 16, 4);
         if (end >= 20 && tail.compare(end - 20, 4, "PK\6\7") == 0) { // zip64
             const std::string wide = text_at(number(tail, end - 20 + 8, 8), 56);
@@ -202,8 +198,8 @@ class ZipStore final : public ZarrStore {
         take_wide(text.substr(46 + name_size, extra), entry);
         const std::string key(text.substr(46, name_size));
         if (entry.method != 0 && entry.method != 8)
-            throw Error(fmt::format("{}: {} is packed by method {}, expected 0 or 8 (deflate)",
-                                    name(), key, entry.method));
+            throw Error("{}: {} is packed by method {}, expected 0 or 8 (deflate)", name(), key,
+                        entry.method);
         entries_[key] = entry;
         return 46 + name_size + extra + comment;
     }

@@ -95,8 +95,7 @@ std::vector<std::string> ZarrArray::texts_in(const ZarrBytes& chunk,
             const auto length = value_at<std::uint32_t>(chunk, at);
             at += 4;
             if (length > chunk.size() - at)
-                throw Error(fmt::format("{}: a text of {} bytes, {} are left", name, length,
-                                        chunk.size() - at));
+                throw Error("{}: a text of {} bytes, {} are left", name, length, chunk.size() - at);
             texts.emplace_back(reinterpret_cast<const char*>(chunk.data()) + at, length);
             at += length;
         }

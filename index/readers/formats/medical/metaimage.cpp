@@ -63,7 +63,7 @@ class MetaImageHeader {
                 listed_.emplace_back(line);
         }
         if (!fields_.contains("ElementDataFile") || !fields_.contains("DimSize"))
-            throw Error(fmt::format("{}: not MetaImage: no DimSize or no ElementDataFile", file_));
+            throw Error("{}: not MetaImage: no DimSize or no ElementDataFile", file_);
     }
 
     /// The value of the first of these keys that the header has.
@@ -80,8 +80,8 @@ class MetaImageHeader {
             return {};
         std::vector<double> numbers = numbers_of(*text, *keys.begin(), file_);
         if (numbers.size() != count)
-            throw Error(fmt::format("{}: {} has {} numbers, expected {}", file_, *keys.begin(),
-                                    numbers.size(), count));
+            throw Error("{}: {} has {} numbers, expected {}", file_, *keys.begin(), numbers.size(),
+                        count);
         return numbers;
     }
 
@@ -152,10 +152,9 @@ void expect_slices(const MetaImageHeader& header, std::int64_t frames, const std
     const bool film = header.find({"Seq_Frame0000_Timestamp", "Seq_Frame0000_Status"}) ||
                       (kinds.size() == 3 && (kinds[2] == "list" || kinds[2] == "time"));
     if (film && !options.spacing)
-        throw Error(
-            fmt::format("{}: a film, {} frames of one slice, expected slices; --spacing X Y "
-                        "Z takes the frames for slices, Z apart",
-                        name, frames));
+        throw Error("{}: a film, {} frames of one slice, expected slices; --spacing X Y Z takes "
+                    "the frames for slices, Z apart",
+                    name, frames);
 }
 
 void find_data(const MetaImageHeader& header, const fs::path& path, std::uint64_t vertices,
@@ -177,8 +176,7 @@ void find_data(const MetaImageHeader& header, const fs::path& path, std::uint64_
     else if (lower_case(file).starts_with("list"))
         names = header.listed();
     if (names.empty())
-        throw Error(
-            fmt::format("{}: ElementDataFile LIST, expected names of files after it", name));
+        throw Error("{}: ElementDataFile LIST, expected names of files after it", name);
     layout.data = file_named_in(path, names.front());
     for (const std::string& one : names.size() > 1 ? names : std::vector<std::string>())
         layout.parts.push_back({file_named_in(path, one), 0, 0});
@@ -187,7 +185,7 @@ void find_data(const MetaImageHeader& header, const fs::path& path, std::uint64_
         return;
     const auto bytes = integers_of(*skipped, "HeaderSize", name);
     if (bytes.size() != 1 || bytes[0] < -1)
-        throw Error(fmt::format("{}: HeaderSize {}, expected -1 or more", name, excerpt(*skipped)));
+        throw Error("{}: HeaderSize {}, expected -1 or more", name, excerpt(*skipped));
     layout.offset = static_cast<std::uint64_t>(std::max<std::int64_t>(bytes[0], 0));
     // -1: the values are at the end of the file.
     const std::uint64_t values = vertices * layout.array.components * layout.steps *
@@ -208,12 +206,11 @@ std::unique_ptr<VolumeFile> open_metaimage(const fs::path& path, const ReadOptio
     const MetaImageHeader header(path);
     const auto sizes = integers_of(*header.find({"DimSize"}), "DimSize", name);
     if (sizes.size() != 3 && sizes.size() != 4)
-        throw Error(
-            fmt::format("{}: {} dimensions, expected 3, or 4 with time", name, sizes.size()));
+        throw Error("{}: {} dimensions, expected 3, or 4 with time", name, sizes.size());
     if (const auto said = header.numbers({"NDims"}, 1);
         !said.empty() && said.front() != static_cast<double>(sizes.size()))
-        throw Error(fmt::format("{}: NDims {}, expected {}, as many as DimSize has numbers", name,
-                                said.front(), sizes.size()));
+        throw Error("{}: NDims {}, expected {}, as many as DimSize has numbers", name, said.front(),
+                    sizes.size());
     SeriesInfo info;
     info.grid.vertices = checked_vertices({sizes[0], sizes[1], sizes[2]}, name);
     StoredLayout layout;
@@ -268,7 +265,7 @@ std::unique_ptr<VolumeFile> open_metaimage(const fs::path& path, const ReadOptio
         info.notes.push_back(std::move(*note));
     if (sizes.size() == 4) {
         if (sizes[3] < 1)
-            throw Error(fmt::format("{}: {} steps, expected at least 1", name, sizes[3]));
+            throw Error("{}: {} steps, expected at least 1", name, sizes[3]);
         layout.steps = static_cast<std::size_t>(sizes[3]);
     }
 
@@ -276,14 +273,13 @@ std::unique_ptr<VolumeFile> open_metaimage(const fs::path& path, const ReadOptio
     const auto known = std::find_if(kTypes.begin(), kTypes.end(),
                                     [&](const auto& entry) { return entry.first == type; });
     if (known == kTypes.end())
-        throw Error(fmt::format("{}: ElementType {}, expected MET_UCHAR to MET_DOUBLE", name,
-                                excerpt(type)));
+        throw Error("{}: ElementType {}, expected MET_UCHAR to MET_DOUBLE", name, excerpt(type));
     layout.array = {"values", known->second};
     if (const auto channels = header.find({"ElementNumberOfChannels"})) {
         const auto number = integers_of(*channels, "ElementNumberOfChannels", name);
         if (number.size() != 1 || number[0] < 1 || number[0] > 64)
-            throw Error(fmt::format("{}: ElementNumberOfChannels {}, expected 1 to 64", name,
-                                    excerpt(*channels)));
+            throw Error("{}: ElementNumberOfChannels {}, expected 1 to 64", name,
+                        excerpt(*channels));
         layout.array.components = static_cast<std::uint32_t>(number[0]);
     }
     find_data(header, path, info.grid.vertex_count(), layout);

@@ -7,8 +7,6 @@
 #include "index/readers/formats/own_formats.h"
 #include "index/readers/formats/stored_file.h"
 
-#include <fmt/format.h>
-
 #include <bit>
 #include <utility>
 
@@ -27,9 +25,9 @@ StoredType type_of_mgh(std::int32_t code, const std::string& name) {
     case 4: return StoredType::i16;
     case 10: return StoredType::u16;
     default:
-        throw Error(fmt::format("{}: MGH of type {}, expected 0, 1, 3, 4 or 10; FreeSurfer's "
-                                "mri_convert makes NIfTI of it",
-                                name, code));
+        throw Error("{}: MGH of type {}, expected 0, 1, 3, 4 or 10; FreeSurfer's mri_convert makes "
+                    "NIfTI of it",
+                    name, code);
     }
 }
 
@@ -61,17 +59,16 @@ void place_mgh(const BinaryHeader& h, const std::string& name, SeriesInfo& info)
 std::unique_ptr<VolumeFile> open_mgh(const fs::path& path, const ReadOptions& options) {
     const std::string name = path.string(), head = head_of(path, kMghBytes);
     if (head.size() < kMghBytes)
-        throw Error(fmt::format("{}: truncated: {} bytes, an MGH header has {}", name, head.size(),
-                                kMghBytes));
+        throw Error("{}: truncated: {} bytes, an MGH header has {}", name, head.size(), kMghBytes);
     const BinaryHeader h(head, std::endian::native == std::endian::little);
     if (const auto version = h.at<std::int32_t>(0); version != 1)
-        throw Error(fmt::format("{}: not MGH: version {}, expected 1", name, version));
+        throw Error("{}: not MGH: version {}, expected 1", name, version);
     SeriesInfo info;
     info.grid.vertices = checked_vertices(
         {h.at<std::int32_t>(4), h.at<std::int32_t>(8), h.at<std::int32_t>(12)}, name);
     const auto frames = h.at<std::int32_t>(16);
     if (frames < 1)
-        throw Error(fmt::format("{}: {} steps, expected at least 1", name, frames));
+        throw Error("{}: {} steps, expected at least 1", name, frames);
     StoredLayout layout;
     layout.data = path;
     layout.big_endian = true;

@@ -154,8 +154,7 @@ NiftiHeader read_header(const fs::path& path) {
     const std::string name = path.string();
     const std::string head = head_of(path, kBytes2);
     if (head.size() < kBytes1)
-        throw Error(fmt::format("{}: truncated: {} bytes, a NIfTI header has {}", name, head.size(),
-                                kBytes1));
+        throw Error("{}: truncated: {} bytes, a NIfTI header has {}", name, head.size(), kBytes1);
     for (const bool swapped : {false, true}) {
         const Fields fields(head, swapped);
         const auto size = fields.at<std::int32_t>(0);
@@ -167,15 +166,15 @@ NiftiHeader read_header(const fs::path& path) {
         if (!nifti && size == kBytes1)
             return analyze_header(fields, swapped);
         if (!nifti)
-            throw Error(fmt::format("{}: not NIfTI: its magic word is missing", name));
+            throw Error("{}: not NIfTI: its magic word is missing", name);
         NiftiHeader header = size == kBytes1 ? header_1(fields) : header_2(fields);
         header.bytes = static_cast<std::size_t>(size);
         header.big_endian = swapped;
         header.pair = magic[1] == 'i';
         return header;
     }
-    throw Error(fmt::format("{}: not NIfTI: the header's size is {}, expected {} or {}", name,
-                            Fields(head, false).at<std::int32_t>(0), kBytes1, kBytes2));
+    throw Error("{}: not NIfTI: the header's size is {}, expected {} or {}", name,
+                Fields(head, false).at<std::int32_t>(0), kBytes1, kBytes2);
 }
 
 // The rotation of METHOD 2 in nifti1.h; columns are scaled by pixdim, the third also by qfac.
@@ -264,7 +263,7 @@ fs::path image_beside(const fs::path& header) {
         if (fs::exists(image, ignored))
             return image;
     }
-    throw Error(fmt::format("{}: its .img is not beside it", name));
+    throw Error("{}: its .img is not beside it", name);
 }
 
 } // namespace
@@ -299,20 +298,19 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
         path = given;
         const std::string head = head_of(given, kBytes1);
         if (head.size() < kBytes1 || !head.substr(kBytes1 - 4).starts_with("n+1"))
-            throw Error(fmt::format("{}: its .hdr is not beside it", given.string()));
+            throw Error("{}: its .hdr is not beside it", given.string());
     }
     const std::string name = path.string();
     const NiftiHeader h = read_header(path);
     const std::int64_t dimensions = h.dim[0];
     if (dimensions < 3 || dimensions > 7)
-        throw Error(
-            fmt::format("{}: {} dimensions, expected 3, or 4 with time, or 5 with components", name,
-                        dimensions));
+        throw Error("{}: {} dimensions, expected 3, or 4 with time, or 5 with components", name,
+                    dimensions);
     for (std::int64_t i = 6; i <= dimensions; ++i)
         if (h.dim[i] > 1)
-            throw Error(fmt::format("{}: {} dimensions, the {}th with {} values; expected 3, or 4 "
-                                    "with time, or 5 with components",
-                                    name, dimensions, i, h.dim[i]));
+            throw Error("{}: {} dimensions, the {}th with {} values; expected 3, or 4 with time, "
+                        "or 5 with components",
+                        name, dimensions, i, h.dim[i]);
 
     SeriesInfo info;
     info.grid.vertices = checked_vertices({h.dim[1], h.dim[2], h.dim[3]}, name);
@@ -353,12 +351,11 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
     layout.compression = is_gzip(layout.data) ? Compression::deflate : Compression::none;
     const double least = h.pair ? 0.0 : static_cast<double>(h.bytes);
     if (!(h.vox_offset >= least) || h.vox_offset > 1e15)
-        throw Error(fmt::format("{}: the data's offset is {}, expected at least {}", name,
-                                h.vox_offset, least));
+        throw Error("{}: the data's offset is {}, expected at least {}", name, h.vox_offset, least);
     layout.skip = static_cast<std::uint64_t>(h.vox_offset);
     if (dimensions >= 4) {
         if (h.dim[4] < 1)
-            throw Error(fmt::format("{}: {} steps, expected at least 1", name, h.dim[4]));
+            throw Error("{}: {} steps, expected at least 1", name, h.dim[4]);
         layout.steps = static_cast<std::size_t>(h.dim[4]);
     }
     layout.first_time = h.toffset;
@@ -375,8 +372,7 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
         layout.steps = 1;
     constexpr std::int64_t kMostComponents = 4096;
     if (h.dim[axis] > kMostComponents)
-        throw Error(fmt::format("{}: {} components, expected at most {}", name, h.dim[axis],
-                                kMostComponents));
+        throw Error("{}: {} components, expected at most {}", name, h.dim[axis], kMostComponents);
     if (options.extra_axis_is_time && layout.steps == 1) {
         layout.steps = static_cast<std::size_t>(h.dim[5]);
         layout.time_step = h.pixdim[5];

@@ -3,8 +3,6 @@
 
 #include "index/error.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 namespace isochron::index {
@@ -33,9 +31,8 @@ StoredType nifti_type(std::int32_t datatype, const std::string& file) {
                                       {2304, " (colors, RGBA)"}})
         if (code == datatype)
             what = named;
-    throw Error(fmt::format("{}: NIfTI datatype {}{}, expected integers of up to 64 bits, f32 or "
-                            "f64",
-                            file, datatype, what));
+    throw Error("{}: NIfTI datatype {}{}, expected integers of up to 64 bits, f32 or f64", file,
+                datatype, what);
 }
 
 NiftiIntent nifti_intent(std::int32_t code) {

@@ -15,8 +15,6 @@
 #include "index/readers/formats/unread_fields.h"
 #include "index/system/input_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -110,8 +108,7 @@ void orient(const NrrdHeader& header, const NrrdAxes& axes, const ReadOptions& o
             return s.name == name || s.letters == name;
         });
         if (known == kSpaces.end())
-            throw Error(fmt::format("{}: space {}, expected one of three dimensions", file,
-                                    excerpt(*space)));
+            throw Error("{}: space {}, expected one of three dimensions", file, excerpt(*space));
         info.anatomy = known->anatomy;
         signs = known->signs;
     }
@@ -157,7 +154,7 @@ void orient(const NrrdHeader& header, const NrrdAxes& axes, const ReadOptions& o
         return;
     const std::int64_t steps = axes.sizes[*axes.time];
     if (steps < 1)
-        throw Error(fmt::format("{}: {} steps, expected at least 1", file, steps));
+        throw Error("{}: {} steps, expected at least 1", file, steps);
     expect_few_steps(static_cast<std::size_t>(steps), file);
     layout.steps = static_cast<std::size_t>(steps);
     StatedAxis time{.name = "time", .length = layout.steps};
@@ -225,8 +222,7 @@ std::uint64_t after_lines(const fs::path& path, std::uint64_t offset, std::uint6
                 return offset + i + 1;
         offset += got;
     }
-    throw Error(fmt::format("{}: truncated: {} lines, expected {} to skip", path.string(),
-                            lines - left, lines));
+    throw Error("{}: truncated: {} lines, expected {} to skip", path.string(), lines - left, lines);
 }
 
 void find_data(const NrrdHeader& header, const fs::path& path, std::uint64_t value_bytes,
@@ -242,8 +238,8 @@ void find_data(const NrrdHeader& header, const fs::path& path, std::uint64_t val
     else if (encoding == "hex")
         layout.compression = Compression::hex;
     else if (encoding != "raw")
-        throw Error(fmt::format("{}: encoding {}, expected raw, ascii, hex, gzip or bzip2", file,
-                                excerpt(encoding)));
+        throw Error("{}: encoding {}, expected raw, ascii, hex, gzip or bzip2", file,
+                    excerpt(encoding));
     layout.big_endian = lower_case(header.find("endian").value_or("little")) == "big";
     layout.data = path;
     layout.offset = header.bytes();
@@ -254,7 +250,7 @@ void find_data(const NrrdHeader& header, const fs::path& path, std::uint64_t val
         else if (lower_case(*data).starts_with("list"))
             names = header.listed();
         if (names.empty())
-            throw Error(fmt::format("{}: data file LIST, expected names of files after it", file));
+            throw Error("{}: data file LIST, expected names of files after it", file);
         layout.data = file_named_in(path, names.front());
         layout.offset = 0;
         for (const std::string& one : names.size() > 1 ? names : std::vector<std::string>())
@@ -264,7 +260,7 @@ void find_data(const NrrdHeader& header, const fs::path& path, std::uint64_t val
         const auto text = header.find(key);
         const auto number = integers_of(text.value_or("0"), key, file);
         if (number.size() != 1 || number[0] < 0)
-            throw Error(fmt::format("{}: {} {}, expected 0 or more", file, key, excerpt(*text)));
+            throw Error("{}: {} {}, expected 0 or more", file, key, excerpt(*text));
         return static_cast<std::uint64_t>(number[0]);
     };
     const std::uint64_t lines = skip("lineskip");
@@ -308,13 +304,13 @@ std::unique_ptr<VolumeFile> open_nrrd(const fs::path& path, const ReadOptions& o
             return entry.names.find("|" + type + "|") != entry.names.npos;
         });
     if (known == kNrrdTypes.end())
-        throw Error(fmt::format("{}: type {}, expected integers of up to 64 bits, float or double",
-                                file, excerpt(type)));
+        throw Error("{}: type {}, expected integers of up to 64 bits, float or double", file,
+                    excerpt(type));
     layout.array = {"values", known->type};
     if (axes.components) {
         const std::int64_t number = axes.sizes[*axes.components];
         if (number < 1 || number > 4096)
-            throw Error(fmt::format("{}: {} components, expected 1 to 4096", file, number));
+            throw Error("{}: {} components, expected 1 to 4096", file, number);
         layout.array.components = static_cast<std::uint32_t>(number);
         layout.array.maybe_steps = !axes.time;
     }
@@ -328,9 +324,9 @@ std::unique_ptr<VolumeFile> open_nrrd(const fs::path& path, const ReadOptions& o
     const bool interleaved = axes.time == 0u;
     const bool stacked = axes.components && *axes.components != 0;
     if (interleaved && stacked)
-        throw Error(fmt::format("{}: time is its fastest and components its slowest axis, expected "
-                                "the other way round",
-                                file));
+        throw Error(
+            "{}: time is its fastest and components its slowest axis, expected the other way round",
+            file);
     if (interleaved)
         return open_interleaved_steps(path, std::move(info), layout, options);
     if (stacked)

@@ -13,7 +13,6 @@
 #include <charconv>
 #include <cmath>
 #include <set>
-#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -115,10 +114,9 @@ Role role_of(const NrrdHeader& header, std::size_t axis, const std::string& kind
     }
     if (!unknown || kind.empty() || options.component)
         return Role::components;
-    throw Error(fmt::format("{}: axis {}, of {}, is neither space nor said to be time (its kind is "
-                            "{}): --extra-axis-is-time reads it as time, --component N takes one "
-                            "of it",
-                            header.file(), axis, axes.sizes[axis], kind));
+    throw Error("{}: axis {}, of {}, is neither space nor said to be time (its kind is {}): "
+                "--extra-axis-is-time reads it as time, --component N takes one of it",
+                header.file(), axis, axes.sizes[axis], kind);
 }
 
 } // namespace
@@ -133,8 +131,8 @@ std::optional<std::vector<double>> nrrd_vector(std::string_view text, const std:
         ' ');
     auto v = numbers_of(numbers, key, file);
     if (v.size() != dimensions)
-        throw Error(fmt::format("{}: {}: {} has {} numbers, expected {}", file, key, excerpt(text),
-                                v.size(), dimensions));
+        throw Error("{}: {}: {} has {} numbers, expected {}", file, key, excerpt(text), v.size(),
+                    dimensions);
     return v;
 }
 
@@ -153,8 +151,7 @@ std::vector<double> per_axis(const NrrdHeader& header, const std::string& key, s
         return {};
     auto numbers = numbers_of(*text, key, header.file());
     if (numbers.size() != count)
-        throw Error(
-            fmt::format("{}: {} {}, expected {}", header.file(), numbers.size(), key, count));
+        throw Error("{}: {} {}, expected {}", header.file(), numbers.size(), key, count);
     return numbers;
 }
 
@@ -177,10 +174,10 @@ NrrdAxes axes_of(const NrrdHeader& header, const ReadOptions& options) {
     const std::size_t count = axes.sizes.size();
     const auto dimension = integers_of(header.need("dimension"), "dimension", file);
     if (dimension.size() != 1 || dimension[0] != static_cast<std::int64_t>(count))
-        throw Error(fmt::format("{}: {} sizes, dimension is {}", file, count,
-                                excerpt(header.need("dimension"))));
+        throw Error("{}: {} sizes, dimension is {}", file, count,
+                    excerpt(header.need("dimension")));
     if (count < 3 || count > 5)
-        throw Error(fmt::format("{}: {} dimensions, expected 3, or 4 with time", file, count));
+        throw Error("{}: {} dimensions, expected 3, or 4 with time", file, count);
     axes.units = quoted_in(header.find("units").value_or(""));
     if (axes.units.size() != count)
         axes.units.clear();
@@ -194,9 +191,9 @@ NrrdAxes axes_of(const NrrdHeader& header, const ReadOptions& options) {
             const auto v = nrrd_vector(vector, "space directions", file, dimensions);
             const bool along_time = v && dimensions == 4 && (*v)[3] != 0;
             if (along_time && ((*v)[0] != 0 || (*v)[1] != 0 || (*v)[2] != 0))
-                throw Error(fmt::format("{}: space directions: {} goes through space and time, "
-                                        "expected one of them",
-                                        file, excerpt(vector)));
+                throw Error(
+                    "{}: space directions: {} goes through space and time, expected one of them",
+                    file, excerpt(vector));
             if (along_time && axes.directions.size() < count)
                 axes.time_step = (*v)[3], kinds[axes.directions.size()] = "time";
             axes.directions.push_back(v && !along_time
@@ -204,8 +201,8 @@ NrrdAxes axes_of(const NrrdHeader& header, const ReadOptions& options) {
                                           : std::nullopt);
         }
         if (axes.directions.size() != count)
-            throw Error(fmt::format("{}: {} space directions, expected {}", file,
-                                    axes.directions.size(), count));
+            throw Error("{}: {} space directions, expected {}", file, axes.directions.size(),
+                        count);
         for (std::size_t axis = 0; axis < count; ++axis)
             spatial[axis] = axes.directions[axis].has_value();
     }
@@ -213,23 +210,23 @@ NrrdAxes axes_of(const NrrdHeader& header, const ReadOptions& options) {
     for (std::size_t axis = 0; axis < count; ++axis) {
         if (spatial[axis]) {
             if (found == 3)
-                throw Error(fmt::format("{}: more than 3 axes of space", file));
+                throw Error("{}: more than 3 axes of space", file);
             axes.space[found++] = axis;
             continue;
         }
         if (count > 4 && axis != 0 && axis < 3)
-            throw Error(fmt::format("{}: axis {} is not one of space; expected that of the slowest "
-                                    "axes or the fastest one only",
-                                    file, axis));
+            throw Error("{}: axis {} is not one of space; expected that of the slowest axes or the "
+                        "fastest one only",
+                        file, axis);
         const Role role = role_of(header, axis, kinds[axis], axes, options);
         std::optional<std::size_t>& place = role == Role::time ? axes.time : axes.components;
         if (place)
-            throw Error(fmt::format("{}: axes {} and {} are both {}, expected one", file, *place,
-                                    axis, role == Role::time ? "time" : "components"));
+            throw Error("{}: axes {} and {} are both {}, expected one", file, *place, axis,
+                        role == Role::time ? "time" : "components");
         place = axis;
     }
     if (found != 3)
-        throw Error(fmt::format("{}: {} axes of space, expected 3", file, found));
+        throw Error("{}: {} axes of space, expected 3", file, found);
     return axes;
 }
 

@@ -17,11 +17,10 @@ NrrdHeader::NrrdHeader(const std::filesystem::path& path) : file_(path.string())
     InputStream in(path);
     std::string line;
     if (!read_line(in, line) || !line.starts_with("NRRD000"))
-        throw Error(fmt::format("{}: not NRRD: it does not start with NRRD000", file_));
+        throw Error("{}: not NRRD: it does not start with NRRD000", file_);
     while (read_line(in, line) && !line.empty()) {
         if (bytes_ > kMost)
-            throw Error(
-                fmt::format("{}: not NRRD: its header is longer than {} bytes", file_, kMost));
+            throw Error("{}: not NRRD: its header is longer than {} bytes", file_, kMost);
         if (lists()) {
             listed_.emplace_back(trimmed(line));
             continue;
@@ -71,7 +70,7 @@ std::vector<std::string> NrrdHeader::others(const std::set<std::string_view>& ke
 std::string NrrdHeader::need(const std::string& key) const {
     if (auto text = find(key))
         return *text;
-    throw Error(fmt::format("{}: has no {}", file_, key));
+    throw Error("{}: has no {}", file_, key);
 }
 
 // Reads a line of limited length: a file with a longer line is not NRRD.
@@ -81,7 +80,7 @@ bool NrrdHeader::read_line(std::istream& in, std::string& line) {
     char c = 0;
     for (; in.get(c) && c != '\n'; line += c)
         if (line.size() > kMost)
-            throw Error(fmt::format("{}: not NRRD: a line of the header has no end", file_));
+            throw Error("{}: not NRRD: a line of the header has no end", file_);
     bytes_ += line.size() + (c == '\n');
     if (line.ends_with('\r'))
         line.pop_back();

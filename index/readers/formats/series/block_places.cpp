@@ -4,7 +4,6 @@
 #include "index/error.h"
 #include "index/readers/formats/stored_file.h"
 
-#include <fmt/format.h>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -29,10 +28,9 @@ bool near(const glm::dvec3& a, const glm::dvec3& b) {
 Begin way_to(const Grid& block, const std::string& name, const Grid& first,
              const std::string& first_name) {
     if (block.rectilinear())
-        throw Error(
-            fmt::format("{}: its vertices are not even, expected parts of a regular grid", name));
+        throw Error("{}: its vertices are not even, expected parts of a regular grid", name);
     if (!near(block.spacing, first.spacing) || block.direction != first.direction)
-        throw Error(fmt::format("{}: another spacing or direction than {}", name, first_name));
+        throw Error("{}: another spacing or direction than {}", name, first_name);
     const glm::dvec3 way =
         glm::transpose(first.direction) * (block.origin - first.origin) / first.spacing;
     constexpr double kOff = 1e-3, kMostAway = 1e6; // shares of a cell
@@ -40,9 +38,8 @@ Begin way_to(const Grid& block, const std::string& name, const Grid& first,
     for (int axis = 0; axis < 3; ++axis) {
         const double at = std::round(way[axis]);
         if (!(std::abs(way[axis] - at) <= kOff) || !(std::abs(at) < kMostAway))
-            throw Error(fmt::format("{}: begins {} cells from {} along axis {}, expected a whole "
-                                    "number",
-                                    name, way[axis], first_name, axis));
+            throw Error("{}: begins {} cells from {} along axis {}, expected a whole number", name,
+                        way[axis], first_name, axis);
         begin[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(at);
     }
     return begin;
@@ -67,10 +64,9 @@ void expect_covered(const BlockPlaces& places, std::span<const Grid> blocks,
                               });
     }
     if (covered != all)
-        throw Error(fmt::format("{} and {} other parts: leave vertices of {} x {} x {} without "
-                                "values",
-                                first_name, blocks.size() - 1, places.whole.vertices[0],
-                                places.whole.vertices[1], places.whole.vertices[2]));
+        throw Error("{} and {} other parts: leave vertices of {} x {} x {} without values",
+                    first_name, blocks.size() - 1, places.whole.vertices[0],
+                    places.whole.vertices[1], places.whole.vertices[2]);
 }
 
 } // namespace
@@ -82,8 +78,8 @@ BlockPlaces places_of_blocks(std::span<const Grid> blocks, std::span<const std::
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         begins.push_back(way_to(blocks[i], names[i], blocks.front(), names.front()));
         if (const auto [other, is_new] = taken.insert({begins.back(), i}); !is_new)
-            throw Error(fmt::format("{}: begins where {} begins, expected parts beside each other",
-                                    names[i], names[other->second]));
+            throw Error("{}: begins where {} begins, expected parts beside each other", names[i],
+                        names[other->second]);
     }
     Begin low = begins.front(), sizes{};
     places.begins.resize(blocks.size());

@@ -2,7 +2,6 @@
 #include "index/readers/formats/series/dated_name.h"
 
 #include "index/lower_case.h"
-#include "index/volume/calendar.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +9,6 @@
 #include <array>
 #include <cstdint>
 #include <numeric>
-#include <string_view>
 #include <utility>
 
 namespace isochron::index {

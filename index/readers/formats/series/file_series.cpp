@@ -10,7 +10,6 @@
 #include "index/readers/formats/series/step_order.h"
 #include "index/readers/formats/series/vti_header_hash.h"
 #include "index/readers/formats/stored_file.h"
-#include "index/system/input_file.h"
 #include "index/utf8.h"
 #include "index/volume/time_unit.h"
 
@@ -41,12 +40,12 @@ void expect_unchanged(const Found& found) {
             continue;
         const std::string name = found.paths[i].string();
         if (is.size != was.size)
-            throw Error(fmt::format("{}: changed while it was read: {} bytes, at first {}", name,
-                                    is.size, was.size));
-        throw Error(fmt::format("{}: changed while it was read: {}", name,
-                                is.inode != was.inode || is.device != was.device
-                                    ? "another file has taken its place"
-                                    : "it was written to"));
+            throw Error("{}: changed while it was read: {} bytes, at first {}", name, is.size,
+                        was.size);
+        throw Error("{}: changed while it was read: {}", name,
+                    is.inode != was.inode || is.device != was.device
+                        ? "another file has taken its place"
+                        : "it was written to");
     }
 }
 
@@ -61,9 +60,9 @@ auto named(const std::filesystem::path& file, Work&& work) {
     } catch (const Interrupted&) {
         throw;
     } catch (const std::bad_alloc&) {
-        throw Error(fmt::format("{}: there is not enough memory to read it", file.string()));
+        throw Error("{}: there is not enough memory to read it", file.string());
     } catch (const std::exception& other) {
-        throw Error(fmt::format("{}: cannot be read: {}", file.string(), other.what()));
+        throw Error("{}: cannot be read: {}", file.string(), other.what());
     }
 }
 
@@ -210,24 +209,23 @@ class FileSeries final : public VolumeSeries {
         std::vector<double> times = info.times;
         if (files_[index].time) {
             if (steps != 1)
-                throw Error(fmt::format("{}: {} steps, expected 1 for time {}", name(index), steps,
-                                        *files_[index].time));
+                throw Error("{}: {} steps, expected 1 for time {}", name(index), steps,
+                            *files_[index].time);
             times = {*files_[index].time};
         } else if (!times.empty() && !options_.time_step && !info.time_unit.empty() &&
                    !first_.time_unit.empty()) {
             // A file without a unit is assumed to use the first file's.
             const auto same = times_in(first_.time_unit, info.time_unit, std::move(times));
             if (!same)
-                throw Error(fmt::format("{}: times in {}, {} has {}; --time-step sets them all",
-                                        name(index), info.time_unit, name(0), first_.time_unit));
+                throw Error("{}: times in {}, {} has {}; --time-step sets them all", name(index),
+                            info.time_unit, name(0), first_.time_unit);
             times = *same;
         }
         if (index == 0)
             timed_ = !times.empty();
         if (timed_ != !times.empty() && !options_.time_step)
-            throw Error(fmt::format("{}: gives {} time, {} gives {}; --time-step sets them all",
-                                    name(index), times.empty() ? "no" : "a", name(0),
-                                    times.empty() ? "one" : "none"));
+            throw Error("{}: gives {} time, {} gives {}; --time-step sets them all", name(index),
+                        times.empty() ? "no" : "a", name(0), times.empty() ? "one" : "none");
         for (std::size_t step = 0; step < steps; ++step) {
             const double time = times.empty() ? static_cast<double>(places_.size()) : times[step];
             info_.times.push_back(time);
@@ -287,16 +285,15 @@ class FileSeries final : public VolumeSeries {
         open_file(index);
         expect_same(open_->info(), name(index), first_, name(0));
         if (open_->steps() != found_[index].steps)
-            throw Error(fmt::format("{}: changed while it was read: {} steps, at first {}",
-                                    name(index), open_->steps(), found_[index].steps));
+            throw Error("{}: changed while it was read: {} steps, at first {}", name(index),
+                        open_->steps(), found_[index].steps);
     }
 
     /// What files state orders the steps; names do only where they state nothing.
     void order_by_time() {
         for (std::size_t i = 0; i < info_.times.size(); ++i)
             if (!std::isfinite(info_.times[i]))
-                throw Error(fmt::format("{}: time {} is not finite", name(places_[i].file),
-                                        info_.times[i]));
+                throw Error("{}: time {} is not finite", name(places_[i].file), info_.times[i]);
         const bool given = std::ranges::any_of(
             files_, [](const SeriesFile& file) { return file.time.has_value(); });
         const bool all_same = places_.size() > 1 && std::ranges::all_of(info_.times, [&](double t) {
@@ -324,8 +321,8 @@ class FileSeries final : public VolumeSeries {
             return;
         const auto [first, last, stride] = *options_.steps;
         if (first > last || last >= places_.size() || stride == 0)
-            throw Error(fmt::format("{}: --steps {}:{}:{}, expected steps of 0:{}", name(0), first,
-                                    last, stride, places_.size() - 1));
+            throw Error("{}: --steps {}:{}:{}, expected steps of 0:{}", name(0), first, last,
+                        stride, places_.size() - 1);
         const std::vector<StepPlace> all = std::exchange(places_, {});
         info_.times.clear();
         info_.sources.clear();
@@ -345,14 +342,13 @@ class FileSeries final : public VolumeSeries {
                 continue;
             const std::string file = name(places_[i].file), before = name(places_[i - 1].file);
             if (places_[i].file == places_[i - 1].file)
-                throw Error(fmt::format("{}: time {} of its step {} is that of the step before it; "
-                                        "--time-step spaces the steps evenly instead",
-                                        file, said_time(i), places_[i].step));
-            throw Error(fmt::format(
-                "{}: time {}, {} has the same; {}", file, said_time(i), before,
-                options_.times_from_names
-                    ? "without --times-from-names their names order them"
-                    : "--time-step spaces the steps evenly, in the order of their names"));
+                throw Error("{}: time {} of its step {} is that of the step before it; --time-step "
+                            "spaces the steps evenly instead",
+                            file, said_time(i), places_[i].step);
+            throw Error("{}: time {}, {} has the same; {}", file, said_time(i), before,
+                        options_.times_from_names
+                            ? "without --times-from-names their names order them"
+                            : "--time-step spaces the steps evenly, in the order of their names");
         }
     }
 
@@ -375,8 +371,7 @@ class FileSeries final : public VolumeSeries {
         if (options_.time_step) {
             const double last = *options_.time_step * static_cast<double>(info_.times.size());
             if (!(*options_.time_step > 0) || !std::isfinite(last))
-                throw Error(fmt::format("--time-step: {}, expected a positive number",
-                                        *options_.time_step));
+                throw Error("--time-step: {}, expected a positive number", *options_.time_step);
             for (std::size_t i = 0; i < info_.times.size(); ++i)
                 info_.times[i] = static_cast<double>(i) * *options_.time_step;
         }

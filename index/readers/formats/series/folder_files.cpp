@@ -44,7 +44,7 @@ std::vector<KnownFile> dicom_files_in(const fs::path& folder) {
     for (fs::recursive_directory_iterator at(folder, ignored), end; at != end;
          at.increment(ignored)) {
         if (++seen > kMost)
-            throw Error(fmt::format("{}: more than {} files in it", folder.string(), kMost));
+            throw Error("{}: more than {} files in it", folder.string(), kMost);
         KnownFile file{.given = at->path(), .path = at->path()};
         if (at->is_regular_file(ignored) && !is_directory_of_dicom(file.path) &&
             is_of_format(dicom, file)) {
@@ -87,12 +87,11 @@ std::vector<KnownFile> values_within(const fs::path& folder, const ReadOptions& 
     std::size_t seen = 0;
     fs::recursive_directory_iterator at(folder, error);
     if (error)
-        throw Error(
-            fmt::format("{}: the folder cannot be read: {}", folder.string(), error.message()));
+        throw Error("{}: the folder cannot be read: {}", folder.string(), error.message());
     for (const fs::recursive_directory_iterator end; !error && at != end; at.increment(error)) {
         const fs::path& path = at->path();
         if (++seen > kMost)
-            throw Error(fmt::format("{}: more than {} files in it", folder.string(), kMost));
+            throw Error("{}: more than {} files in it", folder.string(), kMost);
         std::error_code ignored;
         const bool is_folder = at->is_directory(ignored);
         if (path.filename().string().starts_with('.')) {
@@ -196,8 +195,8 @@ Lists lists_among(const std::vector<KnownFile>& files, const fs::path& folder) {
             of_it.size() == 1
                 ? fmt::format("'{}'", of_it.front().given.string())
                 : fmt::format("'{}' ({} files)", (folder / pattern).string(), of_it.size()));
-    throw Error(fmt::format("{}: a folder with several series or files, expected one: {}",
-                            folder.string(), some_of(listed)));
+    throw Error("{}: a folder with several series or files, expected one: {}", folder.string(),
+                some_of(listed));
 }
 
 /// The list that a folder has, unless it holds another series beside what that names.
@@ -236,7 +235,7 @@ void expect_no_foreign(const fs::path& folder) {
         const bool may_be_values = entry.path().extension() != ".isochron"; // an index beside them
         if (may_be_values && entry.is_regular_file(ignored))
             if (const std::string foreign = foreign_format_or_name(start); !foreign.empty())
-                throw Error(fmt::format("{}: {}", entry.path().string(), foreign));
+                throw Error("{}: {}", entry.path().string(), foreign);
         if (++seen > kMost)
             return;
     }
@@ -248,10 +247,10 @@ FoundFiles series_in(const fs::path& folder, const ReadOptions& options) {
     if (files.empty() && !options.dims)
         expect_no_foreign(folder);
     if (files.empty())
-        throw Error(fmt::format("{}: a folder without {}", folder.string(),
-                                options.dims ? "a file as large as --dims and --type say"
-                                             : "a file of values of a known format; raw values "
-                                               "need --dims and --type"));
+        throw Error("{}: a folder without {}", folder.string(),
+                    options.dims ? "a file as large as --dims and --type say"
+                                 : "a file of values of a known format; raw values "
+                                   "need --dims and --type");
     drop_named(files);
     sort_naturally(files);
     std::vector<std::string> left;

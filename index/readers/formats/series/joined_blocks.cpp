@@ -52,7 +52,7 @@ class JoinedBlocks final : public VolumeFile {
         for (const Block& block : blocks_) {
             open(block.file);
             if (open_->info().grid.vertices != block.vertices || open_->info().type != info_.type)
-                throw Error(fmt::format("{}: changed while it was read", block.file.path.string()));
+                throw Error("{}: changed while it was read", block.file.path.string());
             values.resize(open_->info().step_bytes());
             open_->read(0, values);
             each_row_of_block(block.begin, block.vertices, info_.grid.vertices,
@@ -82,12 +82,12 @@ class JoinedBlocks final : public VolumeFile {
         const SeriesInfo& got = open_->info();
         const std::string name = part.path.string();
         if (open_->steps() != 1)
-            throw Error(fmt::format("{}: {} steps, expected 1 of a part", name, open_->steps()));
+            throw Error("{}: {} steps, expected 1 of a part", name, open_->steps());
         if (blocks_.empty())
             info_ = got;
         if (got.array != info_.array || got.type != info_.type || got.scaling != info_.scaling)
-            throw Error(fmt::format("{}: another array, type or scaling than {}", name,
-                                    blocks_.front().file.path.string()));
+            throw Error("{}: another array, type or scaling than {}", name,
+                        blocks_.front().file.path.string());
         blocks_.push_back({std::move(part), got.grid.vertices, {}});
         return got.grid;
     }

@@ -5,7 +5,6 @@
 #include "index/readers/formats/named_file.h"
 #include "index/system/input_file.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace isochron::index {
@@ -15,20 +14,19 @@ ListedFiles read_json_series(const std::filesystem::path& path) {
     const std::string name = path.string();
     const auto json = nlohmann::json::parse(read_text(path, kLargest), nullptr, false);
     if (!json.is_object() || !json.contains("files") || !json["files"].is_array())
-        throw Error(fmt::format("{}: no list of files, expected {{\"files\": [{{\"name\": ..., "
-                                "\"time\": ...}}, ...]}}",
-                                name));
+        throw Error(
+            "{}: no list of files, expected {{\"files\": [{{\"name\": ..., \"time\": ...}}, ...]}}",
+            name);
     ListedFiles files;
     for (const auto& file : json["files"]) {
         if (!file.is_object() || !file.contains("name") || !file["name"].is_string() ||
             !file.contains("time") || !file["time"].is_number())
-            throw Error(fmt::format("{}: file {} has no name, or no time that is a number", name,
-                                    files.size()));
+            throw Error("{}: file {} has no name, or no time that is a number", name, files.size());
         files.push_back({.path = file_named_in(path, file["name"].get<std::string>()),
                          .time = file["time"].get<double>()});
     }
     if (files.empty())
-        throw Error(fmt::format("{}: an empty list of files", name));
+        throw Error("{}: an empty list of files", name);
     return files;
 }
 

@@ -170,12 +170,12 @@ GroupedArray matching_arrays(std::span<const GroupedPath> paths, const std::stri
         if (matches_pattern(pattern, paths[i].path, FNM_PATHNAME))
             found.push_back(i);
     if (found.empty())
-        throw Error(fmt::format("{}: no array matches {}", file, pattern));
+        throw Error("{}: no array matches {}", file, pattern);
     const GroupedPath& first = paths[found.front()];
     for (const std::size_t each : found)
         if (paths[each].kind != first.kind)
-            throw Error(fmt::format("{}: {} is {}, {} is {}, expected steps that are alike", file,
-                                    paths[each].path, paths[each].kind, first.path, first.kind));
+            throw Error("{}: {} is {}, {} is {}, expected steps that are alike", file,
+                        paths[each].path, paths[each].kind, first.path, first.kind);
     return {pattern, in_order_of_names(paths, found)};
 }
 

@@ -4,7 +4,6 @@
 #include "index/volume/calendar.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>

@@ -218,9 +218,9 @@ std::array<std::uint32_t, 3> vertices_by_gaps(const Grid& grid) {
         const double count = std::ceil(whole / least - kRounding) + 1;
         all *= count;
         if (!(all <= kMostVertices))
-            throw Error(fmt::format("the least distance along axis {} asks for {:.0f} vertices, "
-                                    "expected fewer; --resample NX NY NZ says how many",
-                                    "xyz"[axis], count));
+            throw Error("the least distance along axis {} asks for {:.0f} vertices, expected "
+                        "fewer; --resample NX NY NZ says how many",
+                        "xyz"[axis], count);
         vertices[a] = std::max(static_cast<std::uint32_t>(count), 2u);
     }
     return vertices;

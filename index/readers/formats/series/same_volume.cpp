@@ -50,7 +50,7 @@ std::string text(Anatomy anatomy) {
 void expect_same(const SeriesInfo& got, const std::string& file, const SeriesInfo& first,
                  const std::string& first_file) {
     const auto fail = [&](const std::string& what, const std::string& is, const std::string& was) {
-        throw Error(fmt::format("{}: {} {}, {} has {}", file, what, is, first_file, was));
+        throw Error("{}: {} {}, {} has {}", file, what, is, first_file, was);
     };
     const Grid &a = got.grid, &b = first.grid;
     if (a.vertices != b.vertices)
@@ -59,8 +59,8 @@ void expect_same(const SeriesInfo& got, const std::string& file, const SeriesInf
     if (got.array != first.array)
         fail("array", got.array, first.array);
     if (got.type != first.type)
-        throw Error(fmt::format("{}: type {}, {} has {}; --type f32 reads both as f32", file,
-                                name_of(got.type), first_file, name_of(first.type)));
+        throw Error("{}: type {}, {} has {}; --type f32 reads both as f32", file, name_of(got.type),
+                    first_file, name_of(first.type));
     if (!close(a.spacing, b.spacing, b.spacing * 1e-6))
         fail("spacing", text(a.spacing), text(b.spacing));
     if (!close(a.origin, b.origin,
@@ -68,8 +68,8 @@ void expect_same(const SeriesInfo& got, const std::string& file, const SeriesInf
         fail("origin", text(a.origin), text(b.origin));
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (!same_positions(a, b, axis))
-            throw Error(fmt::format("{}: other positions of vertices along axis {} than {}", file,
-                                    axis, first_file));
+            throw Error("{}: other positions of vertices along axis {} than {}", file, axis,
+                        first_file);
     for (int axis = 0; axis < 3; ++axis)
         if (!close(a.direction[axis], b.direction[axis], glm::dvec3(1e-5)))
             fail(fmt::format("direction of axis {}", axis), text(a.direction[axis]),

@@ -52,9 +52,7 @@ std::string escaped(std::string_view text) {
 }
 
 void write_whole(const fs::path& path, std::string_view bytes) {
-    NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(bytes)));
-    file.commit();
+    write_file(path, std::as_bytes(std::span(bytes)));
 }
 
 void append_number(std::string& out, std::uint64_t number) {
@@ -92,8 +90,8 @@ std::string compressed(std::span<const std::byte> values) {
 SeriesWriter::SeriesWriter(fs::path dir, std::string name, SeriesInfo info)
     : dir_(std::move(dir)), name_(std::move(name)), info_(std::move(info)) {
     if (info_.scaling != Scaling{})
-        throw Error(fmt::format("{}: a .vti carries no scaling, slope {} and intercept {} given",
-                                name_, info_.scaling.slope, info_.scaling.intercept));
+        throw Error("{}: a .vti carries no scaling, slope {} and intercept {} given", name_,
+                    info_.scaling.slope, info_.scaling.intercept);
     make_folder(dir_);
     temporary_.emplace(dir_ / name_, name_);
 }
@@ -106,11 +104,11 @@ std::string SeriesWriter::file_of(const std::string& name, std::size_t step) {
 
 void SeriesWriter::append(std::span<const std::byte> values, double time) {
     if (values.size() != info_.step_bytes())
-        throw Error(fmt::format("{}: step {} has {} bytes, expected {}", name_, steps_.size(),
-                                values.size(), info_.step_bytes()));
+        throw Error("{}: step {} has {} bytes, expected {}", name_, steps_.size(), values.size(),
+                    info_.step_bytes());
     if (!std::isfinite(time) || (!steps_.empty() && time <= steps_.back().time))
-        throw Error(fmt::format("{}: step {} is at time {}, expected a greater one than before",
-                                name_, steps_.size(), time));
+        throw Error("{}: step {} is at time {}, expected a greater one than before", name_,
+                    steps_.size(), time);
     steps_.push_back({file_of(name_, steps_.size()), time});
     write_whole(temporary(steps_.back().file), vti(values, time));
 }
@@ -133,8 +131,7 @@ void SeriesWriter::publish(const std::string& file) const {
     std::error_code failure;
     fs::rename(temporary(file), dir_ / file, failure);
     if (failure)
-        throw Error(
-            fmt::format("{}: cannot be written: {}", (dir_ / file).string(), failure.message()));
+        throw Error("{}: cannot be written: {}", (dir_ / file).string(), failure.message());
 }
 
 std::string SeriesWriter::vti(std::span<const std::byte> values, double time) const {

@@ -91,10 +91,10 @@ std::map<std::size_t, Counted> meanings(const std::vector<NumberedName>& names,
         if (is_place(i) &&
             (last_word(names.front().texts[i]).size() > 1 || // x1.tif alone may be any
              std::ranges::count_if(varying, is_place) > 1))
-            throw Error(fmt::format(
-                "{}, {}: tiles side by side, by the numbers behind '{}', expected "
-                "slices or steps: give the files of one place",
-                files.front().string(), files.back().string(), last_word(names.front().texts[i])));
+            throw Error("{}, {}: tiles side by side, by the numbers behind '{}', expected slices "
+                        "or steps: give the files of one place",
+                        files.front().string(), files.back().string(),
+                        last_word(names.front().texts[i]));
     for (const std::size_t i : varying)
         if (const auto counted = counted_behind(names.front().texts[i]);
             counted && taken.insert(*counted).second)
@@ -113,9 +113,9 @@ std::map<std::size_t, Counted> meanings(const std::vector<NumberedName>& names,
                 found[i] = left;
         }
     if (found.size() != varying.size())
-        throw Error(fmt::format("{}, {}: {} numbers differ in the names of the files, expected "
-                                "them behind t, c and z (t01_c0_z001.tif)",
-                                files.front().string(), files.back().string(), varying.size()));
+        throw Error("{}, {}: {} numbers differ in the names of the files, expected them behind t, "
+                    "c and z (t01_c0_z001.tif)",
+                    files.front().string(), files.back().string(), varying.size());
     return found;
 }
 
@@ -129,9 +129,9 @@ void expect_even(const std::map<NameNumber, fs::path>& slices) {
         const double rounding =
             1.5 * std::max(slice->first.rounding(), before->first.rounding()) + 1e-9 * gap;
         if (std::abs(slice->first.value - before->first.value - gap) > rounding)
-            throw Error(fmt::format("{}: slice {} follows {} of {}, expected {}",
-                                    slice->second.string(), slice->first.value, before->first.value,
-                                    before->second.string(), before->first.value + gap));
+            throw Error("{}: slice {} follows {} of {}, expected {}", slice->second.string(),
+                        slice->first.value, before->first.value, before->second.string(),
+                        before->first.value + gap);
     }
 }
 
@@ -183,9 +183,9 @@ std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::
         sorted.push_back(files[file]);
         names.push_back(read.names[file]);
         if (names.back().texts != names.front().texts)
-            throw Error(fmt::format("{}, {}: names that differ in more than numbers, expected "
-                                    "t01_c0_z001.tif and the like",
-                                    sorted.front().string(), sorted.back().string()));
+            throw Error("{}, {}: names that differ in more than numbers, expected t01_c0_z001.tif "
+                        "and the like",
+                        sorted.front().string(), sorted.back().string());
     }
     const bool flat = is_flat_tiff(sorted.front()).value_or(false);
     const auto counts = meanings(names, sorted, flat);
@@ -196,9 +196,8 @@ std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::
             at[counted] = names[i].numbers[number];
         fs::path& place = found[at[Counted::channel]][at[Counted::step]][at[Counted::slice]];
         if (!place.empty())
-            throw Error(fmt::format("{}, {}: both are slice {} of step {}", place.string(),
-                                    sorted[i].string(), at[Counted::slice].value,
-                                    at[Counted::step].value));
+            throw Error("{}, {}: both are slice {} of step {}", place.string(), sorted[i].string(),
+                        at[Counted::slice].value, at[Counted::step].value);
         place = sorted[i];
     }
     auto channel = found.begin();
@@ -208,17 +207,16 @@ std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::
             offered.push_back(fmt::format("channel {}", number.value));
         const auto chosen = std::ranges::find(offered, options.array.value_or(""));
         if (chosen == offered.end())
-            throw Error(fmt::format("{}: files of several channels, choose one with --array: {}",
-                                    sorted.front().string(), fmt::join(offered, ", ")));
+            throw Error("{}: files of several channels, choose one with --array: {}",
+                        sorted.front().string(), fmt::join(offered, ", "));
         std::advance(channel, chosen - offered.begin());
     }
     std::vector<SeriesFile> series;
     const std::size_t slices = channel->second.begin()->second.size();
     for (const auto& [step, of_step] : channel->second) {
         if (of_step.size() != slices)
-            throw Error(fmt::format("{}: {} slices in step {}, the first has {}",
-                                    of_step.begin()->second.string(), of_step.size(), step.value,
-                                    slices));
+            throw Error("{}: {} slices in step {}, the first has {}",
+                        of_step.begin()->second.string(), of_step.size(), step.value, slices);
         expect_even(of_step);
         std::vector<fs::path> paths;
         for (const auto& [number, path] : of_step)

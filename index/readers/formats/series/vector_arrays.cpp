@@ -133,9 +133,8 @@ open_components(const std::vector<std::string>& names,
     for (const auto& series : all)
         if (series->info().grid.vertices != all.front()->info().grid.vertices ||
             series->info().times != all.front()->info().times)
-            throw Error(fmt::format("{}: not the shape or times of {}, expected arrays of one "
-                                    "vector",
-                                    shape_of(*series), shape_of(*all.front())));
+            throw Error("{}: not the shape or times of {}, expected arrays of one vector",
+                        shape_of(*series), shape_of(*all.front()));
     return all;
 }
 

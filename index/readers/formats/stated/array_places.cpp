@@ -299,7 +299,7 @@ ArrayLayout lay_out(StatedArray& array, const std::vector<StatedAttributes>& obj
     std::string why;
     const auto layout = layout_of(array, options, &why);
     if (!layout)
-        throw Error(fmt::format("{}: {} ({}): {}", array.file, array.name, shape_text(array), why));
+        throw Error("{}: {} ({}): {}", array.file, array.name, shape_text(array), why);
     std::array<std::size_t, 3> space = layout->space;
     std::ranges::reverse(space);
     for (std::string& note : take_grid_attributes(objects, space, options, array))
@@ -380,18 +380,18 @@ std::size_t member_of(const StatedArray& array, const ArrayLayout& layout,
                       const ReadOptions& options) {
     if (!layout.member) {
         if (options.member && !options.any_array)
-            throw Error(fmt::format("{}: {} ({}) has no axis of members, --member names one",
-                                    array.file, array.name, shape_text(array)));
+            throw Error("{}: {} ({}) has no axis of members, --member names one", array.file,
+                        array.name, shape_text(array));
         return 0;
     }
     const StatedAxis& axis = array.axes[*layout.member];
     if (!options.member && options.any_array)
         return 0;
     if (!options.member || *options.member >= axis.length)
-        throw Error(fmt::format(
-            "{}: {} has {} members along {}{}, choose one with --member 0 to {}", array.file,
-            array.name, axis.length, axis.name,
-            options.member ? fmt::format(", not {}", *options.member) : "", axis.length - 1));
+        throw Error("{}: {} has {} members along {}{}, choose one with --member 0 to {}",
+                    array.file, array.name, axis.length, axis.name,
+                    options.member ? fmt::format(", not {}", *options.member) : "",
+                    axis.length - 1);
     return *options.member;
 }
 

@@ -18,7 +18,6 @@
 #include <set>
 #include <sstream>
 #include <string_view>
-#include <utility>
 
 namespace isochron::index {
 namespace {

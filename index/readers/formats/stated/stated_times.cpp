@@ -3,7 +3,6 @@
 
 #include "index/lower_case.h"
 #include "index/readers/formats/series/dated_name.h"
-#include "index/volume/calendar.h"
 #include "index/volume/time_unit.h"
 
 #include <fmt/format.h>
@@ -15,7 +14,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
-#include <optional>
 #include <string_view>
 #include <utility>
 

@@ -3,8 +3,6 @@
 
 #include "index/error.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <cstring>
 #include <initializer_list>
@@ -62,9 +60,9 @@ Scaling scaling_by(const StatedAttributes& array, const std::string& where) {
     };
     const Scaling scaling{number({"scale_factor", "unitSI"}, 1), number({"add_offset"}, 0)};
     if (scaling.slope == 0 || !std::isfinite(scaling.slope) || !std::isfinite(scaling.intercept))
-        throw Error(fmt::format("{}: scale_factor {} and add_offset {}, expected finite numbers "
-                                "and a factor that is not 0",
-                                where, scaling.slope, scaling.intercept));
+        throw Error("{}: scale_factor {} and add_offset {}, expected finite numbers and a factor "
+                    "that is not 0",
+                    where, scaling.slope, scaling.intercept);
     return scaling;
 }
 

@@ -4,7 +4,6 @@
 #include "index/readers/formats/stated/stated_array.h"
 #include "index/readers/formats/stored_scalar.h"
 
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <span>

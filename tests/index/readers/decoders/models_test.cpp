@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/export/surface_export.h"
+#include "index/interrupted.h"
 #include "index/readers/formats/model_file.h"
 #include "index/search/surface_mesh.h"
 #include "tests/support/indexed.h"
@@ -416,6 +417,15 @@ TEST(Models, AreReadBehindTheFenceAndRefusedInOneLine) {
         folder.write(name, "<VTKFile type=\"PolyData\"><Poly");
         EXPECT_THAT(said(name), HasSubstr(name));
     }
+}
+
+TEST(Models, AreNotWaitedForOnceNobodyWantsThem) {
+    const test_support::TestFolder folder;
+    const auto file = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    std::stop_source nobody;
+    nobody.request_stop();
+    EXPECT_THROW(read_model(file, "", nobody.get_token()), Interrupted);
+    EXPECT_EQ(read_model(file).triangles(), 1u) << "by another reader";
 }
 
 } // namespace

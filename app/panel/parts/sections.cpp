@@ -12,6 +12,7 @@
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/surfaces_section.h"
 #include "app/panel/parts/theme.h"
+#include "app/panel/parts/time_track.h"
 #include "app/panel/parts/view_cube.h"
 #include "app/scene/look.h"
 #include "app/text.h"

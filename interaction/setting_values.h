@@ -395,6 +395,8 @@ struct Rulers {
 
 /// What `CurveDrawer::measure` has for the values at the mark, and for those along the picked ruler.
 inline constexpr std::string_view kMarkCurve = "mark", kProfileCurve = "profile";
+/// The measure whose place is the mark.
+inline constexpr std::string_view kDistanceCurve = "distance";
 
 /// The drawer of curves: a number of the shown surfaces over all steps.
 struct CurveDrawer {

@@ -88,6 +88,12 @@ void FurtherSupply::drop_unwished(std::span<const index::SurfacesQuery> wished) 
 void FurtherSupply::update(const Frame& frame, const std::vector<index::SurfacesQuery>& wished) {
     take();
     drop_unwished(wished);
+    const bool by_crossing = std::ranges::any_of(
+        wished, [](const auto& query) { return index::by_first_crossing(query.coloring); });
+    if (!by_crossing)
+        crossings_.reset();
+    else if (!crossings_)
+        crossings_ = std::make_shared<index::KnownCrossings>();
     const bool rests =
         !frame.is_live() || frame.is_kept || frame.report.pace == interaction::Pace::settled;
     const std::uint64_t most = rests ? kMost : kMostMoving;
@@ -96,6 +102,7 @@ void FurtherSupply::update(const Frame& frame, const std::vector<index::Surfaces
         if (!makes_) {
             if (!frame.is_live())
                 wanted->most = most;
+            wanted->known = crossings_;
             makes_ = wanted;
             making_.ask(*wanted);
         }
@@ -125,12 +132,19 @@ std::vector<ShownFurther> shown_further(const std::vector<index::InstantSurfaces
         shown.look.isovalue = surfaces->query.isovalues.back();
         shown.values = {info.array, info.value_unit, info.type, info.digits};
         shown.simplified = !surfaces->exact() && surfaces->most == FurtherSupply::kMost;
-        shown.by_values = state.coloring.by == interaction::ColorBy::value &&
-                          surfaces->query.coloring == index::CellColoring::value &&
-                          surfaces->query.colors == color_array(state, file) && shown.mesh() &&
-                          !shown.mesh()->colors.empty();
+        shown.by_values = colored_as_asked(*surfaces, state, file);
     }
     return further;
+}
+
+bool colored_as_asked(const index::InstantSurfaces& made, const ExplorerState& state,
+                      const index::IndexFile& file) {
+    const index::SurfacesQuery& query = made.query;
+    return query.coloring != index::CellColoring::none &&
+           query.coloring == state.surfaces().coloring &&
+           (query.coloring != index::CellColoring::value ||
+            query.colors == color_array(state, file)) &&
+           made.meshes.back() && !made.meshes.back()->colors.empty();
 }
 
 } // namespace isochron::app

@@ -58,11 +58,16 @@ class FurtherSupply {
     std::vector<index::InstantSurfacesPtr> kept_,
         shown_; ///< `kept_`: the last one made is the last
     std::vector<index::SurfacesQuery> failed_;
-    std::optional<WantedSurfaces> makes_; ///< what is being made
+    std::optional<WantedSurfaces> makes_;              ///< what is being made
+    std::shared_ptr<index::KnownCrossings> crossings_; ///< null: none are wished
     bool come_ = false;
     std::vector<std::string> messages_;
     SurfacesAsker making_;
 };
+
+/// Whether a further surface has the colors that the state asks for.
+bool colored_as_asked(const index::InstantSurfaces& made, const ExplorerState& state,
+                      const index::IndexFile& file);
 
 /// The further surfaces of a picture. @param file all its arrays
 std::vector<ShownFurther> shown_further(const std::vector<index::InstantSurfacesPtr>& made,

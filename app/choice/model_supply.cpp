@@ -207,8 +207,10 @@ std::vector<ListedModel> ModelSupply::listed(const ExplorerState& state) const {
         if (const auto known = known_.find(model.path); known != known_.end()) {
             line.fault = known->second.fault;
             line.refused = known->second.refused;
-            if (known->second.mesh)
+            if (known->second.mesh) {
                 line.words = fmt::format("{} triangles", grouped(known->second.mesh->triangles()));
+                line.box = known->second.box;
+            }
         }
         if (line.words.empty() && line.fault.empty())
             line.words = model.shown ? "it is being read" : "hidden";

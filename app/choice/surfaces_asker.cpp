@@ -8,10 +8,10 @@ namespace isochron::app {
 SurfacesAsker::SurfacesAsker()
     : Asker(
           [](const WantedSurfaces& wanted, const Asking& asking) {
-              return MadeSurfaces{
-                  wanted.query,
-                  index::instant_surfaces(wanted.array, wanted.query, wanted.most, asking.stop),
-                  {}};
+              return MadeSurfaces{wanted.query,
+                                  index::instant_surfaces(wanted.array, wanted.query, wanted.most,
+                                                          asking.stop, wanted.known.get()),
+                                  {}};
           },
           [](const WantedSurfaces& wanted, const std::string& why, bool canceled) {
               return MadeSurfaces{wanted.query, nullptr, canceled ? std::string() : why};

@@ -16,6 +16,8 @@ struct WantedSurfaces {
     std::shared_ptr<const index::IndexFile> array; ///< that of the query
     index::SurfacesQuery query;
     std::uint64_t most = 0; ///< triangles
+    /// Crossings from one question to the next, which the asker's thread alone uses; may be null.
+    std::shared_ptr<index::KnownCrossings> known = {};
 };
 struct MadeSurfaces {
     index::SurfacesQuery query;

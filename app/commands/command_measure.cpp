@@ -37,20 +37,24 @@ struct MeasureArguments {
     std::uint32_t fraction = 0, dust = 0;
     std::vector<std::string> measures;
     std::optional<std::string> array, on_surface, crop;
-    std::vector<double> clip;
+    std::vector<double> clip, from;
     bool pieces = false, csv = false, force = false;
 };
 
-/// The measures that are asked for, by their numbers; those of the other array only with one.
+/// The measures that are asked for, by their numbers; those of the other array, or from a place, only
+/// with one.
 std::vector<std::size_t> chosen(const MeasureArguments& arguments) {
     std::vector<std::size_t> numbers;
     const std::span<const index::Measure> all = index::measures();
     for (std::size_t i = 0; i < all.size(); ++i) {
         const bool named =
             std::ranges::find(arguments.measures, all[i].name) != arguments.measures.end();
-        const bool there = all[i].unit != index::MeasureUnit::value || arguments.on_surface;
+        const bool there =
+            index::is_measured(all[i], arguments.on_surface.has_value(), !arguments.from.empty());
         if (named && !there)
-            throw UsageError("--measure {}: needs --on-surface ARRAY", all[i].name);
+            throw UsageError("--measure {}: needs {}", all[i].name,
+                             all[i].unit == index::MeasureUnit::value ? "--on-surface ARRAY"
+                                                                      : "--from X Y Z");
         if (named || (arguments.measures.empty() && there))
             numbers.push_back(i);
     }
@@ -100,6 +104,8 @@ Rows measured(const MeasureArguments& arguments,
         wishes.box = box_of(*arguments.crop, info.grid);
     if (const auto plane = plane_of(arguments.clip))
         wishes.clip = index::CutPlane{plane->point, plane->normal};
+    if (!arguments.from.empty())
+        wishes.from = glm::dvec3(arguments.from[0], arguments.from[1], arguments.from[2]);
     const std::string other =
         wishes.array ? index::ColorSource(*file, *wishes.array).array().value_unit : "";
     Rows made{.columns = {"step", "fraction", "time", "isovalue"},
@@ -259,6 +265,9 @@ void add_measure(Command& program) {
         "Measure only what lies on one side of a plane, which is given by a point and a "
         "normal in the coordinates of the data. The normal points to the side that is cut "
         "away. The surface is cut without a cap; volumes are those of that side, exactly");
+    command.option("--from X Y Z", arguments->from,
+                   "Measure the distance from this place, in the coordinates of the data, to the "
+                   "nearest point of the surface");
     command.option(
         "--dust CELLS", arguments->dust,
         "Measure without the connected pieces that have fewer active cells. What these enclose "

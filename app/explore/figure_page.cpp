@@ -188,7 +188,7 @@ class PanelDrawing {
         drawn.surfaces = state.isosurfaces;
         drawn.ghosts = session.ghost_lines();
         drawn.scale = session.scale();
-        drawn.by_values = state.coloring.by == interaction::ColorBy::value;
+        drawn.by_values = state.coloring.by != interaction::ColorBy::surface;
         drawn.length_unit = info.length_unit;
         for (std::size_t i = 0; i < state.isosurfaces.size(); ++i) {
             const interaction::Isosurface& surface = state.isosurfaces[i];

@@ -21,7 +21,8 @@ std::vector<std::size_t> columns_of(const CurveSubject& subject) {
         return {0};
     std::vector<std::size_t> columns;
     for (std::size_t i = 0; i < index::measures().size(); ++i)
-        if (index::measures()[i].unit != index::MeasureUnit::value || subject.on_surface)
+        if (is_measured(index::measures()[i], subject.on_surface.has_value(),
+                        subject.from.has_value()))
             columns.push_back(i);
     return columns;
 }

@@ -26,6 +26,7 @@ struct CurveSubject {
     index::PieceFilter kept = {};                    ///< see index::MeasureWishes
     /// Number of the array on the surface whose mean and extremes are measured (index::ColorSource).
     std::optional<std::size_t> on_surface = {};
+    std::optional<glm::dvec3> from = {}; ///< distances are measured from here, in physical space
     /// The only number is the value here, in physical space; all but `array` is not used then.
     std::optional<glm::dvec3> place = {};
     bool operator==(const CurveSubject&) const = default;

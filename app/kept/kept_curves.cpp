@@ -58,6 +58,8 @@ std::string key_of(const CurveSubject& subject) {
         const index::ColorSource other(file, *subject.on_surface);
         key += fmt::format(";on {}", other.array().array);
     }
+    if (subject.from)
+        key += ";from " + text_of(*subject.from);
     for (const index::Measure& each : index::measures())
         key += fmt::format(";{}: {}", each.name, each.definition);
     return key;

@@ -89,9 +89,7 @@ index::ExportRequest shown_request(const ExplorerState& state,
     }
     PercentileRange none;
     const bool by_crossing = state.coloring.by == interaction::ColorBy::first_crossing;
-    if (by_crossing && !state.isosurfaces[state.picked].of_shown_array())
-        scale.reset(); // only surfaces of the shown array are colored by first crossings
-    else if (!scale)
+    if (!scale)
         scale = color_scale(state, *file, {}, none);
     if (scale && !(by_crossing && index::has_wide_ids(info.grid))) {
         std::optional<std::size_t> number;

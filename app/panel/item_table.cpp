@@ -370,6 +370,8 @@ constexpr ItemAct kRulerActs[] = {
 
 // Where they lie.
 
+constexpr const char* kIntoView = "bring it into view";
+
 std::vector<glm::dvec3> places_of_cut(const PanelModel& model, std::size_t i) {
     if (is_plane(model, i)) {
         const interaction::ClipPlane& clip = model.asked.clip;
@@ -382,6 +384,21 @@ std::vector<glm::dvec3> places_of_cut(const PanelModel& model, std::size_t i) {
     for (const interaction::ToolLine& edge : draw_clip_box(boxed, model.data).lines)
         corners.insert(corners.end(), {edge.from, edge.to});
     return corners;
+}
+
+std::vector<glm::dvec3> places_of_model(const PanelModel& model, std::size_t i) {
+    std::vector<glm::dvec3> corners;
+    if (const auto box = line_of_model(model, i).box)
+        for (unsigned corner = 0; corner < 8; ++corner)
+            corners.emplace_back((*box)[corner & 1].x, (*box)[corner >> 1 & 1].y,
+                                 (*box)[corner >> 2].z);
+    return corners;
+}
+
+/// None of the dust.
+std::vector<glm::dvec3> places_of_piece(const PanelModel& model, std::size_t i) {
+    const interaction::PlacedPiece* const piece = piece_of(model.asked.pieces, i);
+    return piece ? std::vector{piece->place} : std::vector<glm::dvec3>();
 }
 
 std::vector<glm::dvec3> places_of_slice(const PanelModel& model, std::size_t i) {
@@ -451,7 +468,7 @@ std::vector<ItemKind> all_kinds() {
          .count = count_cuts,
          .item = cut_item,
          .show = show_cut,
-         .go_words = "bring it into view",
+         .go_words = kIntoView,
          .places = places_of_cut,
          .remove = remove_cut},
         {.name = "model",
@@ -461,6 +478,8 @@ std::vector<ItemKind> all_kinds() {
          .show = show_model,
          .recolor = recolor<models>,
          .fade = fade<models>,
+         .go_words = kIntoView,
+         .places = places_of_model,
          .acts = kModelActs,
          .remove = [](const PanelModel& model, std::size_t i,
                       Commands& commands) { erase_at(models(model, commands), i); },
@@ -484,6 +503,8 @@ std::vector<ItemKind> all_kinds() {
          .item = piece_item,
          .show = [](const PanelModel& model, std::size_t i, bool,
                     Commands& commands) { free_piece(model, i, commands); },
+         .go_words = kIntoView,
+         .places = places_of_piece,
          .acts = kPieceActs,
          .remove = free_piece},
         {.name = "mark",

@@ -58,7 +58,8 @@ struct ItemKind {
                    interaction::Commands&) = {};
     const char* go_words = ""; ///< what a press on the line does, see `go_to_item`
     void (*go)(const PanelModel& model, std::size_t i, interaction::Commands&) = {};
-    /// The places between which it lies, in physical space, which a press brings into view.
+    /// The places between which it lies, in physical space, which a press brings into view; none: it
+    /// lies nowhere, or is not there yet.
     std::vector<glm::dvec3> (*places)(const PanelModel& model, std::size_t i) = {};
     std::span<const ItemAct> acts = {};
     /// Not for the last item of a kind that needs one.

@@ -60,6 +60,43 @@ void title_of(const PanelModel& model, const PanelLayout& layout) {
     end_part();
 }
 
+/// Below the pages in the room: lines of the tools, and the way out of an empty picture. They keep their
+/// place whatever the page holds, and are scrolled where they take more than half of the column.
+class RoomStrip {
+  public:
+    explicit RoomStrip(const PanelModel& model)
+        : model_(model), shown_(has_tool_strip(model) || model.notes.empty),
+          lines_(ImGui::GetID("lines of the strip")) {}
+
+    /// Height that it takes below the page; 0: it is not shown.
+    float height() const {
+        const float gap = ImGui::GetStyle().ItemSpacing.y;
+        const float most = ImGui::GetContentRegionAvail().y / 2;
+        const float lines = ImGui::GetStateStorage()->GetFloat(lines_, ImGui::GetFrameHeight());
+        return shown_ ? std::min(lines + kLine + 2 * gap, most) : 0.0f;
+    }
+    void lay_out(Commands& commands) {
+        if (!shown_)
+            return;
+        ImGui::Separator();
+        ImGui::BeginChild("strip");
+        if (has_tool_strip(model_))
+            tool_strip(model_, ImGui::GetContentRegionAvail().x, commands);
+        if (empty_rows(model_))
+            merge(commands, model_.notes.empty->commands);
+        const float lines = ImGui::GetCursorPosY();
+        ImGui::EndChild();
+        ImGui::GetStateStorage()->SetFloat(lines_, lines); // for the next frame
+    }
+
+  private:
+    static constexpr float kLine = 1.0f; ///< between the page and the strip
+
+    const PanelModel& model_;
+    bool shown_;
+    ImGuiID lines_; ///< what the height of all lines is kept under
+};
+
 /// The icons of a folded column; each opens its section over the picture, and closes it again.
 void section_icons(std::optional<std::size_t>& open) {
     for (std::size_t i = 0; i < kSections; ++i)
@@ -167,15 +204,16 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
     begin_part("###column", layout.column, Ink::paper, kPart & ~ImGuiWindowFlags_NoScrollbar);
     if (model.place != PanelPlace::over)
         story_rows(model, commands);
-    if (layout.folded)
+    if (layout.folded) {
         section_icons(view.section);
-    else if (model.place == PanelPlace::in_room)
-        section_pages(model, pages, commands, view.pointed);
-    else
+    } else if (model.place == PanelPlace::in_room) {
+        RoomStrip strip(model);
+        section_pages(model, pages, commands, view.pointed, strip.height());
+        strip.lay_out(commands);
+    } else {
         section_column(model, pages, commands, view.pointed);
-    if (model.place == PanelPlace::in_room && has_tool_strip(model))
-        tool_strip(model, ImGui::GetContentRegionAvail().x, commands);
-    if (model.place != PanelPlace::over && empty_rows(model))
+    }
+    if (model.place == PanelPlace::whole && empty_rows(model))
         interaction::merge(commands, model.notes.empty->commands);
     end_part();
     ImGui::PopStyleVar();

@@ -16,6 +16,8 @@
 #include "interaction/pointed.h"
 #include "render/gl/image.h"
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -98,7 +100,7 @@ struct PanelWork {
     const StepSurvey* survey = nullptr;         ///< survey of the shown step; null: none yet
 };
 
-using interaction::kMarkCurve, interaction::kProfileCurve;
+using interaction::kDistanceCurve, interaction::kMarkCurve, interaction::kProfileCurve;
 
 /// Numbers of the surfaces over all steps.
 struct PanelCurves {
@@ -114,6 +116,8 @@ struct ListedModel {
     std::string words;    ///< how large it is; empty: nothing is known
     std::string fault;    ///< why it is not shown; empty: it is, or it will be
     bool refused = false; ///< it is not opened unless the user allows it
+    /// Its lowest and highest coordinates, physical space; empty: it is not there.
+    std::optional<std::array<glm::dvec3, 2>> box{};
 };
 
 /// Files of triangles, in the order of their settings.

@@ -262,6 +262,8 @@ constexpr OtherNames kOtherNames[] = {
     {"remove_clip", "no clip, clip off, unclip, remove slice, delete clip plane, show whole"},
     {"ruler_tool", "measure, measurement, distance, length, tape, line tool, dimension, caliper, "
                    "how far, how long, width, distance between points"},
+    {"ruler_at_mark", "measure from the mark, distance from the mark, measure to the mark, begin ruler, "
+                      "add place to ruler, distance between marks"},
     {"ruler_angle", "angle, protractor, measure angle, three points, degrees, corner, slope"},
     {"profile", "line profile, plot profile, plot over line, line plot, intensity profile, values "
                 "along a line, transect, cross section curve, sample along line, linescan"},
@@ -312,6 +314,8 @@ constexpr OtherNames kOtherNames[] = {
     {"curves=area", "surface area, size of the surface, area over time, how large"},
     {"curves=volume", "volume over time, enclosed volume, how large, how big, size of the vortex, "
                       "amount"},
+    {"curves=distance", "distance over time, distance to the surface, distance to the wall, how far, "
+                        "how far from here, nearest distance, gap, clearance, how far in each step"},
     {"curves=pieces", "connected components, connectivity, count objects, number of objects, "
                       "number of pieces"},
     {"curves=euler", "genus, topology, holes, handles, euler characteristic"},
@@ -886,6 +890,11 @@ void add_tools(Lines& lines) {
     const interaction::Rulers& rulers = asked.rulers;
     remove("remove_ruler", "remove the ruler", rulers.chosen() != nullptr, &Commands::rulers,
            without_ruler(rulers, rulers.picked));
+    if (asked.mark.point)
+        if (interaction::Rulers longer = with_place(rulers, asked.mark.point->position);
+            longer != rulers)
+            lines.add({.name = "ruler_at_mark", .words = "ruler: its next place is the mark"})
+                .commands.rulers = std::move(longer);
     remove("remove_rulers", "remove all rulers", rulers.list.size() > 1, &Commands::rulers,
            interaction::Rulers{.angle = rulers.angle});
     remove("remove_clip", "remove the clip plane", asked.clip.shown, &Commands::clip,
@@ -932,7 +941,7 @@ void add_objects(Lines& lines) {
     for (const ItemKind& kind : item_kinds())
         for (std::size_t i = 0; i < kind.count(model); ++i) {
             const Item item = kind.item(model, i);
-            if (kind.places) {
+            if (kind.places && !kind.places(model, i).empty()) {
                 Commands way;
                 way.room_from_physical = model.asked.room_from_physical;
                 go_to_item(kind, model, i, way);
@@ -1016,8 +1025,8 @@ void add_curves(Lines& lines) {
                     asked.curves);
     };
     for (const index::Measure& each : index::measures())
-        if (each.unit != index::MeasureUnit::value ||
-            asked.coloring.by == interaction::ColorBy::value)
+        if (is_measured(each, asked.coloring.by == interaction::ColorBy::value,
+                        asked.mark.point.has_value()))
             add(each.name, fmt::format("curve: {} over time", words_of_measure(each.name)));
     if (asked.mark.point)
         add(kMarkCurve, "curve: value at the mark over time");

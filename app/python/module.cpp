@@ -266,7 +266,8 @@ std::vector<std::string> names_of(const OpenRun& run) {
 py::tuple measure(RunArray& array, std::int64_t step, std::int64_t fraction, double isovalue,
                   const std::optional<std::string>& on_surface, bool pieces,
                   const std::optional<std::array<std::array<std::uint32_t, 2>, 3>>& crop,
-                  const std::optional<std::array<double, 6>>& clip, std::uint32_t dust) {
+                  const std::optional<std::array<double, 6>>& clip, std::uint32_t dust,
+                  const std::optional<std::array<double, 3>>& from) {
     std::optional<index::CutPlane> plane;
     if (clip)
         plane = {{(*clip)[0], (*clip)[1], (*clip)[2]}, {(*clip)[3], (*clip)[4], (*clip)[5]}};
@@ -274,8 +275,12 @@ py::tuple measure(RunArray& array, std::int64_t step, std::int64_t fraction, dou
     if (crop) // x, y, z: the first and the last
         box = {{(*crop)[0][0], (*crop)[1][0], (*crop)[2][0]},
                {(*crop)[0][1], (*crop)[1][1], (*crop)[2][1]}};
+    std::optional<glm::dvec3> place;
+    if (from)
+        place.emplace((*from)[0], (*from)[1], (*from)[2]);
     index::MeasuredSurface found = unlocked([&] {
-        return array.measure({step, fraction}, isovalue, on_surface, pieces, box, plane, dust);
+        return array.measure({step, fraction}, isovalue, on_surface, pieces, box, plane, dust,
+                             place);
     });
     std::vector<double> rows;
     for (const index::MeasuredPiece& piece : found.pieces) {
@@ -343,7 +348,7 @@ PYBIND11_MODULE(_native, module) {
         .def("mesh", &mesh, "step"_a, "fraction"_a, "isovalue"_a, "absolute"_a, "level"_a,
              "normals"_a, "values"_a, "dust"_a)
         .def("measure", &measure, "step"_a, "fraction"_a, "isovalue"_a, "on_surface"_a, "pieces"_a,
-             "crop"_a, "clip"_a, "dust"_a)
+             "crop"_a, "clip"_a, "dust"_a, "place"_a)
         .def("profile", &profile, "step"_a, "fraction"_a, "places"_a)
         .def("values", &values, "step"_a, "fraction"_a, "box"_a, "level"_a)
         .def("first_crossings", &first_crossings, "isovalue"_a, "blended"_a)

@@ -191,10 +191,14 @@ index::MeasuredSurface RunArray::measure(const AskedInstant& at, double isovalue
                                          const std::optional<std::string>& on_surface, bool pieces,
                                          const std::optional<index::VertexBox>& box,
                                          const std::optional<index::CutPlane>& clip,
-                                         std::uint32_t dust) {
+                                         std::uint32_t dust,
+                                         const std::optional<glm::dvec3>& from) {
     const index::Query asked = query(at, isovalue);
-    index::MeasureWishes wishes{
-        .array = source_called(on_surface), .box = box, .clip = clip, .pieces = pieces};
+    index::MeasureWishes wishes{.array = source_called(on_surface),
+                                .box = box,
+                                .clip = clip,
+                                .from = from,
+                                .pieces = pieces};
     wishes.kept.dust = dust;
     const auto make = [this] { return std::make_unique<index::SurfaceMeasures>(file_); };
     return measures_.with(make, [&](index::SurfaceMeasures& measures) {

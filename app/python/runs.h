@@ -101,11 +101,12 @@ class RunArray {
     Triangles<double> mesh(const AskedInstant& at, double isovalue, std::size_t level,
                            const WishedOfMesh& wished);
     /// @param on_surface name of the array to measure on the surface
-    /// @param dust pieces of fewer active cells are left out
+    /// @param dust pieces of fewer active cells are left out @param from place of the distance
     index::MeasuredSurface measure(const AskedInstant& at, double isovalue,
                                    const std::optional<std::string>& on_surface, bool pieces,
                                    const std::optional<index::VertexBox>& box,
-                                   const std::optional<index::CutPlane>& clip, std::uint32_t dust);
+                                   const std::optional<index::CutPlane>& clip, std::uint32_t dust,
+                                   const std::optional<glm::dvec3>& from);
     /// Stored values, x fastest; between two steps, as index::Blend stores them. Reads the chunks in
     /// which the box lies, and no others, unless the index refers to its sources.
     std::vector<std::byte> values(const AskedInstant& at, const Box& box, std::size_t level) const;

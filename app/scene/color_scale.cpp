@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 namespace isochron::app {
@@ -45,22 +44,25 @@ std::size_t color_array(const ExplorerState& state, const index::IndexFile& file
                                       file.array_called(state.array).value_or(0));
 }
 
-std::optional<std::array<double, 2>> PercentileRange::of(const index::ExtractionPtr& shown,
+std::optional<std::array<double, 2>> PercentileRange::of(const ColoredSurfaces& shown,
                                                          const std::array<double, 2>& whole,
                                                          const std::array<double, 2>& percentiles) {
-    const bool same_set = !shown.owner_before(shown_) && !shown_.owner_before(shown);
+    std::vector<std::weak_ptr<const void>> now{shown.cells};
+    now.insert(now.end(), shown.further.begin(), shown.further.end());
+    const bool same_set = std::ranges::equal(now, shown_, [](const auto& a, const auto& b) {
+        return !a.owner_before(b) && !b.owner_before(a);
+    });
     if (same_set && whole == whole_ && percentiles == percentiles_)
         return range_;
-    shown_ = shown;
+    shown_ = std::move(now);
     whole_ = whole;
     percentiles_ = percentiles;
-    range_ = shown ? range_of_shares(*shown, whole, {percentiles[0] / 100, percentiles[1] / 100})
-                   : std::nullopt;
+    range_ = range_of_shares(shown, whole, {percentiles[0] / 100, percentiles[1] / 100});
     return range_;
 }
 
 std::optional<ColorScale> color_scale(const ExplorerState& state, const index::IndexFile& file,
-                                      const index::ExtractionPtr& shown, PercentileRange& cached) {
+                                      const ColoredSurfaces& shown, PercentileRange& cached) {
     ColorScale scale;
     switch (state.coloring.by) {
     case interaction::ColorBy::surface: return std::nullopt;
@@ -146,20 +148,32 @@ std::vector<ScaleTick> ticks_on(const ColorScale& scale, int most) {
     return all;
 }
 
-std::optional<std::array<double, 2>> range_of_shares(const index::Extraction& shown,
+std::optional<std::array<double, 2>> range_of_shares(const ColoredSurfaces& shown,
                                                      const std::array<double, 2>& whole,
                                                      const std::array<double, 2>& shares) {
-    std::vector<std::uint16_t> coordinates;
-    std::ranges::copy_if(shown.colors, std::back_inserter(coordinates),
-                         [](std::uint16_t one) { return one != index::kNoColor; });
-    if (coordinates.empty())
+    // Shares of the whole range, exact for both kinds of coordinates.
+    constexpr std::uint32_t kWhole = std::uint32_t{index::kColorSteps} * index::kFineColorSteps;
+    std::vector<std::uint32_t> parts;
+    const auto add = [&](const std::vector<std::uint16_t>& coordinates, std::uint16_t none,
+                         std::uint16_t steps) {
+        for (const std::uint16_t one : coordinates)
+            if (one != none)
+                parts.push_back(one * (kWhole / steps));
+    };
+    if (shown.cells)
+        add(shown.cells->colors, index::kNoColor, index::kColorSteps);
+    for (const index::InstantSurfacesPtr& each : shown.further)
+        for (const index::CellMeshPtr& mesh : each->meshes)
+            if (mesh)
+                add(mesh->colors, index::kNoFineColor, index::kFineColorSteps);
+    if (parts.empty())
         return std::nullopt;
     std::array<double, 2> range{};
     for (std::size_t end = 0; end < 2; ++end) {
-        const auto at = coordinates.begin() +
-                        std::lround(shares[end] * static_cast<double>(coordinates.size() - 1));
-        std::ranges::nth_element(coordinates, at);
-        range[end] = std::lerp(whole[0], whole[1], *at / double{index::kColorSteps});
+        const auto at =
+            parts.begin() + std::lround(shares[end] * static_cast<double>(parts.size() - 1));
+        std::ranges::nth_element(parts, at);
+        range[end] = std::lerp(whole[0], whole[1], *at / double{kWhole});
     }
     return range[0] < range[1] ? std::optional(range) : std::nullopt;
 }

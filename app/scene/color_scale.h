@@ -3,6 +3,7 @@
 
 #include "app/frame/explorer_state.h"
 #include "index/extraction/extraction.h"
+#include "index/extraction/instant_surfaces.h"
 #include "render/cells/cell_appearance.h"
 #include "render/passes/color_map.h"
 
@@ -42,23 +43,30 @@ std::vector<ScaleTick> ticks_on(const ColorScale& scale, int most);
 /// How a pass colors values. @param map of these colors, in linear light
 render::ValueColors value_colors(const ColorScale& scale, const render::Texture& map);
 
-/// The quantiles of the shown cells' values at two shares, as a range for a map.
+/// What has the colors of a scale; constant.
+struct ColoredSurfaces {
+    index::ExtractionPtr cells; ///< null: none
+    std::vector<index::InstantSurfacesPtr> further{};
+};
+
+/// The quantiles of the shown values, those of cells and of vertices of further surfaces, at two shares,
+/// as a range for a map.
 /// @param shares 0 to 1, ascending
-/// @return empty if the cells have no values, or both quantiles are equal
-std::optional<std::array<double, 2>> range_of_shares(const index::Extraction& shown,
+/// @return empty if there are no values, or both quantiles are equal
+std::optional<std::array<double, 2>> range_of_shares(const ColoredSurfaces& shown,
                                                      const std::array<double, 2>& whole,
                                                      const std::array<double, 2>& shares);
 
 /// Caches `range_of_shares` of the last set: values are sorted only when something changes.
 class PercentileRange {
   public:
-    /// @param shown null: no range @param percentiles 0 to 100, ascending
-    std::optional<std::array<double, 2>> of(const index::ExtractionPtr& shown,
+    /// @param percentiles 0 to 100, ascending
+    std::optional<std::array<double, 2>> of(const ColoredSurfaces& shown,
                                             const std::array<double, 2>& whole,
                                             const std::array<double, 2>& percentiles);
 
   private:
-    std::weak_ptr<const index::Extraction> shown_; ///< keeps no set that is shown no longer
+    std::vector<std::weak_ptr<const void>> shown_; ///< keeps nothing that is shown no longer
     std::array<double, 2> whole_{}, percentiles_{};
     std::optional<std::array<double, 2>> range_;
 };
@@ -67,9 +75,9 @@ class PercentileRange {
 std::size_t color_array(const ExplorerState& state, const index::IndexFile& file);
 
 /// Empty when colors tell surfaces apart, or when there is no array to color by.
-/// @param shown cells whose percentiles are the range, if the state says so
+/// @param shown surfaces whose percentiles are the range, if the state says so
 std::optional<ColorScale> color_scale(const ExplorerState& state, const index::IndexFile& file,
-                                      const index::ExtractionPtr& shown, PercentileRange& cached);
+                                      const ColoredSurfaces& shown, PercentileRange& cached);
 
 /// Number of the array that is sliced, as `index::IndexFile::array` takes it.
 std::size_t slice_array(const ExplorerState& state, const index::IndexFile& file);

@@ -206,6 +206,7 @@ CurveMaker::Measure measured_in_index() {
         if (subject.clip)
             wishes.clip = index::CutPlane{subject.clip->point, subject.clip->normal};
         wishes.box = subject.box;
+        wishes.from = subject.from;
         auto found = of->measures->measure({index::Instant(step), subject.isovalue}, wishes, stop);
         return found ? std::optional(std::move(found->values)) : std::nullopt;
     };

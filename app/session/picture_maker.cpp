@@ -68,9 +68,13 @@ bool PictureMaker::colored_as_asked(const ExplorerState& state) const {
 }
 
 std::optional<ColorScale> PictureMaker::scale(const ExplorerState& state) const {
-    return color_scale(state, *arrays_.file(),
-                       colored_as_asked(state) ? sets_.shown() : index::ExtractionPtr(),
-                       percentiles_);
+    ColoredSurfaces shown;
+    if (colored_as_asked(state))
+        shown.cells = sets_.shown();
+    for (const index::InstantSurfacesPtr& each : further_.shown())
+        if (app::colored_as_asked(*each, state, *arrays_.file()))
+            shown.further.push_back(each);
+    return color_scale(state, *arrays_.file(), shown, percentiles_);
 }
 
 /// The color scale of the drawn cells. Empty until these have the current coloring.

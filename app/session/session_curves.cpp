@@ -133,6 +133,8 @@ void SessionCurves::update(const Frame& frame, const ShownArrays& arrays,
         if (state.coloring.by == interaction::ColorBy::value &&
             index::ColorSource::count(*arrays.file()) > 0)
             subject.on_surface = color_array(state, *arrays.file());
+        if (state.curves.measure == kDistanceCurve) // else a new mark would make all curves anew
+            subject.from = marked_place(state);
         for (std::size_t i = 0; i < state.isosurfaces.size(); ++i) {
             subject.array = arrays.held(state, i);
             subject.isovalue = state.isosurfaces[i].isovalue;

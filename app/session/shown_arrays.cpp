@@ -143,10 +143,12 @@ std::vector<index::SurfacesQuery> ShownArrays::further(const ExplorerState& stat
         query.isovalues.assign(i, kNoSurface);
         query.isovalues.push_back(surface.isovalue);
         query.array = static_cast<std::uint32_t>(number(state, i));
-        if (state.coloring.by == interaction::ColorBy::value &&
-            index::ColorSource::count(*file_) > 0) {
-            query.coloring = index::CellColoring::value;
-            query.colors = static_cast<std::uint32_t>(color_array(state, *file_));
+        query.coloring = state.surfaces().coloring;
+        if (query.coloring == index::CellColoring::value) {
+            if (index::ColorSource::count(*file_) == 0)
+                query.coloring = index::CellColoring::none;
+            else
+                query.colors = static_cast<std::uint32_t>(color_array(state, *file_));
         }
         query.pieces = filter_of(state.pieces);
         for (auto* const list : {&query.pieces.only, &query.pieces.hidden})

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace isochron::index {
@@ -89,8 +90,10 @@ class InstantMeshes {
     }
 
     /// @return false when stopped
-    bool make(unsigned level, std::vector<CellMesh>& meshes) {
+    bool make(unsigned level, std::vector<CellMesh>& meshes, KnownCrossings& known) {
         SurfaceMeshes of_volume(file_);
+        const bool by_crossing = by_first_crossing(query_.coloring) && level == 0;
+        std::vector<CellSet> cells(query_.isovalues.size());
         for (std::size_t i = 0; i < query_.isovalues.size(); ++i) {
             CellMesh& mesh = meshes.emplace_back();
             if (!std::isfinite(query_.isovalues[i]))
@@ -102,17 +105,31 @@ class InstantMeshes {
             MeshWishes wishes;
             if (colors_)
                 wishes.values = query_.colors;
-            auto made = of_volume.make_packed(query_.surface(i), wishes, stop_);
+            auto made = of_volume.make_packed(query_.surface(i), wishes, stop_,
+                                              by_crossing ? &cells[i] : nullptr);
             if (!made)
                 return false;
             mesh = std::move(*made);
             if (colors_)
                 color_by_values(mesh, colors_->array().low, colors_->array().high);
         }
-        return true;
+        return !by_crossing || color_by_crossings(cells, meshes, known);
     }
 
   private:
+    bool color_by_crossings(const std::vector<CellSet>& cells, std::vector<CellMesh>& meshes,
+                            KnownCrossings& known) {
+        std::vector<std::uint16_t> colors, corners;
+        if (!known.of(file_, query_).fill(query_, cells, step(0), colors, corners, stop_))
+            return false;
+        std::span<const std::uint16_t> rest = colors;
+        for (std::size_t i = 0; i < meshes.size() && !rest.empty(); ++i) {
+            color_by_cells(meshes[i], rest.first(cells[i].ids.size()));
+            rest = rest.subspan(cells[i].ids.size());
+        }
+        return true;
+    }
+
     StepView step(unsigned level) const { return step_in_chunks(*file_, query_.instant, level); }
 
     std::optional<std::uint64_t> count(unsigned level) {
@@ -209,9 +226,24 @@ std::uint64_t InstantSurfaces::triangles() const {
     return sum;
 }
 
+SurfaceColors& KnownCrossings::of(const std::shared_ptr<const IndexFile>& file,
+                                  const SurfacesQuery& query) {
+    const auto found = std::ranges::find_if(known_, [&](const Known& each) {
+        return each.file == file && each.surfaces == query.isovalues.size();
+    });
+    if (found != known_.end())
+        known_.splice(known_.end(), known_, found);
+    else
+        known_.push_back({file, query.isovalues.size(), SurfaceColors(file, std::nullopt)});
+    if (known_.size() > kMostSurfaces)
+        known_.pop_front();
+    return known_.back().colors;
+}
+
 InstantSurfacesPtr instant_surfaces(const std::shared_ptr<const IndexFile>& file,
                                     const SurfacesQuery& query, std::uint64_t most,
-                                    const std::stop_token& stop) {
+                                    const std::stop_token& stop, KnownCrossings* known) {
+    KnownCrossings none;
     InstantMeshes maker(file, query, stop);
     std::vector<CellMesh> meshes;
     auto made = std::make_shared<InstantSurfaces>();
@@ -219,7 +251,7 @@ InstantSurfacesPtr instant_surfaces(const std::shared_ptr<const IndexFile>& file
     made->most = most;
     try {
         const auto level = maker.finest(kMadeForOne * most);
-        if (!level || !maker.make(*level, meshes))
+        if (!level || !maker.make(*level, meshes, known ? *known : none))
             return nullptr;
         made->level = *level;
     } catch (const Stopped&) {

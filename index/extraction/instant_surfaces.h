@@ -5,13 +5,16 @@
 //         draw(*mesh);
 #pragma once
 
+#include "index/extraction/surface_colors.h"
 #include "index/file/index_file.h"
 #include "index/surface/cell_mesh.h"
 #include "index/volume/query.h"
 
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <list>
 #include <memory>
 #include <stop_token>
 #include <vector>
@@ -44,15 +47,32 @@ using InstantSurfacesPtr = std::shared_ptr<const InstantSurfaces>;
 /// The place of a vertex in even coordinates (`Grid::physical_from_index`).
 glm::dvec3 even_place_of(const Grid& grid, const MeshVertex& vertex);
 
+/// What is known of first crossings, so that further instants of the same surfaces need no search of
+/// the series. Not thread-safe.
+class KnownCrossings {
+  public:
+    /// @param file the array of the query
+    SurfaceColors& of(const std::shared_ptr<const IndexFile>& file, const SurfacesQuery& query);
+
+  private:
+    struct Known {
+        std::shared_ptr<const IndexFile> file;
+        std::size_t surfaces = 0; ///< number of those of the query
+        SurfaceColors colors;
+    };
+    std::list<Known> known_; ///< the one that was asked for last is the last
+};
+
 /// Makes the meshes of all isovalues of a query, without the pieces that its filter leaves out: these
 /// are told apart on cells of the volume itself, so of a coarser level all are there. By coloring
-/// `value` the meshes have colors, but for an array that has no values at their level. If there are too
-/// many triangles, clusters of cells become one vertex each (mesh_clusters.h); where there are far too
+/// `value` the meshes have colors, but for an array that has no values at their level; by first
+/// crossings those of the volume itself have. If there are too many triangles, clusters of cells become one vertex each (mesh_clusters.h); where there are far too
 /// many, a coarser level of detail is taken first, so that little is read.
-/// @param file the array of the query
-/// @return null when stopped @throws Error as `mesh_of` does
+/// @param file the array of the query @param known null: crossings are found for this call alone
+/// @return null when stopped @throws Error as `mesh_of` and `SurfaceColors` do
 InstantSurfacesPtr instant_surfaces(const std::shared_ptr<const IndexFile>& file,
                                     const SurfacesQuery& query, std::uint64_t most,
-                                    const std::stop_token& stop = {});
+                                    const std::stop_token& stop = {},
+                                    KnownCrossings* known = nullptr);
 
 } // namespace isochron::index

@@ -37,6 +37,9 @@ class MeasuredStep {
         return {file_, query_, whole_, box_, {}, {}, complete_, stop_};
     }
     bool is_cut() const { return clip_.has_value(); }
+    /// Sets the place, in physical space, to which distances are measured; none: they are undefined.
+    void measure_from(const std::optional<glm::dvec3>& place) { from_ = place; }
+    const std::optional<glm::dvec3>& from() const { return from_; }
 
     const Grid& grid() const { return grid_; }
     /// Cells of which a part is on the surface.
@@ -85,6 +88,7 @@ class MeasuredStep {
     Grid grid_;
     std::optional<PlaneCut> clip_;
     CutSurface cut_; ///< what the plane leaves of the mesh
+    std::optional<glm::dvec3> from_;
     bool complete_, all_pieces_;
     const std::stop_token& stop_;
     std::optional<std::vector<glm::dvec3>> points_, normals_;

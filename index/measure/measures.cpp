@@ -2,6 +2,7 @@
 #include "index/measure/measures.h"
 
 #include "index/measure/measured_step.h"
+#include "index/surface/triangle_distance.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -63,6 +64,20 @@ double extreme(MeasuredStep& step, double sign) {
             !std::isnan(value) && !(found * sign <= value * sign))
             found = value;
     return found;
+}
+
+/// From the place that is asked for to the nearest point of the surface.
+double distance(MeasuredStep& step) {
+    if (!step.from() || step.triangles() == 0)
+        return kUndefined;
+    const glm::dvec3 from = *step.from() - step.grid().origin;
+    const std::vector<glm::dvec3>& points = step.points();
+    const std::span<const std::uint32_t> corners = step.corners();
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < corners.size(); i += 3)
+        least = std::min(least, squared_distance(from, {points[corners[i]], points[corners[i + 1]],
+                                                        points[corners[i + 2]]}));
+    return std::sqrt(least);
 }
 
 std::vector<MeasuredPiece> measured_pieces(MeasuredStep& step) {
@@ -127,7 +142,8 @@ std::vector<MeasuredPiece> measured_pieces(MeasuredStep& step) {
     return all;
 }
 
-/// What the pieces that are left out enclose; NaN unless all of them are closed.
+/// The volume above that goes with the pieces that are left out: what these enclose if all of them are
+/// closed, or else all but what the kept ones enclose, if these are closed around higher values. Else NaN.
 double left_out(MeasuredStep& step) {
     if (step.has_all_pieces())
         return 0;
@@ -148,10 +164,12 @@ double left_out(MeasuredStep& step) {
         return kUndefined;
     MeasuredStep whole = step.with_all_pieces();
     const Closed all = closed(whole), kept = closed(step);
-    return all.others == kept.others ? all.volume - kept.volume : kUndefined;
+    if (all.others == kept.others)
+        return all.volume - kept.volume;
+    return kept.others == 0 && kept.volume > 0 ? step.volumes().above - kept.volume : kUndefined;
 }
 
-constexpr std::array<Measure, 11> kMeasures{{
+constexpr std::array<Measure, 12> kMeasures{{
     {"cells", MeasureUnit::none, "active cells: least < isovalue <= greatest of the 8 vertices",
      [](MeasuredStep& step) { return static_cast<double>(step.cells()); }},
     {"area", MeasureUnit::area, "sum of the areas of the surface's triangles", area},
@@ -181,6 +199,8 @@ constexpr std::array<Measure, 11> kMeasures{{
      [](MeasuredStep& step) { return extreme(step, 1); }},
     {"greatest", MeasureUnit::value, "greatest value of the other array at the surface's vertices",
      [](MeasuredStep& step) { return extreme(step, -1); }},
+    {"distance", MeasureUnit::distance, "distance from a place to the nearest point of the surface",
+     distance},
 }};
 
 } // namespace
@@ -195,6 +215,7 @@ std::string unit_of(const Measure& measure, const SeriesInfo& info, std::string_
     case MeasureUnit::area: return info.length_unit.empty() ? "" : info.length_unit + "^2";
     case MeasureUnit::volume: return info.length_unit.empty() ? "" : info.length_unit + "^3";
     case MeasureUnit::value: return std::string(of_values);
+    case MeasureUnit::distance: return info.length_unit;
     }
     return {};
 }
@@ -211,6 +232,7 @@ std::optional<MeasuredSurface> SurfaceMeasures::measure(const Query& query,
     try {
         MeasuredStep step(*file_, query, *mesh, wishes.box, wishes.clip, wishes.kept, complete_,
                           stop);
+        step.measure_from(wishes.from);
         MeasuredSurface found;
         for (std::size_t i = 0; i < kMeasures.size(); ++i) {
             const bool wanted =

@@ -13,6 +13,8 @@
 #include "index/surface/mesh_crop.h"
 #include "index/volume/query.h"
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -29,19 +31,31 @@ namespace isochron::index {
 class MeasuredStep;
 
 /// What a measure counts.
-enum class MeasureUnit : std::uint8_t { none, area, volume, value };
+enum class MeasureUnit : std::uint8_t {
+    none,
+    area,
+    volume,
+    value,   ///< unit of the array on the surface
+    distance ///< length from a place
+};
 
 /// One measure. A further one is a function and a row of the table.
 struct Measure {
     std::string_view name; ///< as on a command line
-    MeasureUnit unit;      ///< `area` and `volume` are powers of `SeriesInfo::length_unit`
+    MeasureUnit unit;      ///< all but `value` are powers of `SeriesInfo::length_unit`
     std::string_view definition;
     double (*of)(MeasuredStep& step); ///< NaN where it is not defined
 };
 
-/// In the order in which they are listed. Those of unit `value` are of an array on the surface, and
-/// NaN unless one is asked for.
+/// In the order in which they are listed. Those that need an array on the surface, or a place, are NaN
+/// unless one is asked for.
 std::span<const Measure> measures();
+/// Whether a measure has numbers. @param on_surface an array is asked for @param from a place is
+constexpr bool is_measured(const Measure& measure, bool on_surface, bool from) {
+    return measure.unit == MeasureUnit::value      ? on_surface
+           : measure.unit == MeasureUnit::distance ? from
+                                                   : true;
+}
 /// Its unit in words: `mm^2`; empty without one. @param of_values unit of the array on the surface
 std::string unit_of(const Measure& measure, const SeriesInfo& info, std::string_view of_values);
 
@@ -72,10 +86,13 @@ struct MeasureWishes {
     /// Measures what this plane leaves: the surface, with an edge where it is cut and no cap; volumes
     /// on its side, exactly; vertices that are not beyond it.
     std::optional<CutPlane> clip = std::nullopt;
+    /// The distance from this place, in physical space, to the surface is measured.
+    std::optional<glm::dvec3> from = std::nullopt;
     bool pieces = false;
     /// Measures only the pieces that this keeps (with `surface` 0) of the surface in the box, before
-    /// it is cut. From the volumes is taken what the others enclose: they are NaN unless these are
-    /// closed and nothing is cut; `bodies` is NaN.
+    /// it is cut. From the volumes is taken what the others enclose, if these are closed; or else the
+    /// volume is what the kept ones enclose, if those are closed around higher values. Else, and where
+    /// something is cut, volumes are NaN; `bodies` is NaN.
     PieceFilter kept = {};
     /// Numbers of the measures that are wanted; the others are NaN. Empty: all.
     std::vector<std::size_t> only = {};

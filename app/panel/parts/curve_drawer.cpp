@@ -73,7 +73,7 @@ std::vector<Choice> choices_of(const PanelModel& model) {
     }
     const std::span<const index::Measure> all = index::measures();
     for (std::size_t i = 0; i < all.size(); ++i)
-        if (all[i].unit != index::MeasureUnit::value || other)
+        if (is_measured(all[i], other.has_value(), model.asked.mark.point.has_value()))
             choices.push_back(
                 {std::string(all[i].name), i, unit_of(all[i], model.info, other_unit),
                  std::string(all[i].definition) + (all[i].unit == index::MeasureUnit::value
@@ -358,6 +358,15 @@ std::string number_within(float width, double value, const std::string& unit) {
     return words;
 }
 
+/// Whether hidden pieces leave the volume of the first surface undefined, so that it is to be said why.
+bool unknown_volume(const Shown& shown, const Choice& choice, std::uint32_t step) {
+    if (!choice.name.starts_with("volume") || shown.surfaces.empty())
+        return false;
+    const StepCurve& curve = *shown.surfaces.front().curve;
+    return step < curve.steps() && curve.known[step] && !curve.subject.kept.keeps_all() &&
+           !curve.subject.clip && std::isnan(at_step(curve, choice.number, step));
+}
+
 /// The numbers of the present step: a line for each measure, a column for each surface.
 void table(const PanelModel& model, const Shown& shown, const ImVec2& size, Commands& commands) {
     constexpr float kName = 104.0f;
@@ -387,7 +396,9 @@ void table(const PanelModel& model, const Shown& shown, const ImVec2& size, Comm
         ImGui::TableNextColumn();
         if (table_line(k == shown.chosen) != LinePress::none && k != shown.chosen)
             choose(model, choice, commands);
-        tip(choice.tip.c_str());
+        tip(unknown_volume(shown, choice, now) ? "not known: a piece that is hidden, and one that "
+                                                 "is shown, end at the data's border"
+                                               : choice.tip.c_str());
         ImGui::SameLine(0.0f, 0.0f);
         text(words_of_measure(choice.name));
         const bool of_mark = choice.name == kMarkCurve;
@@ -447,6 +458,8 @@ std::string words_of_measure(std::string_view name) {
         return "value at the mark";
     if (name == kProfileCurve)
         return "values along the ruler";
+    if (name == kDistanceCurve)
+        return "mark to surface";
     std::string words(name);
     std::ranges::replace(words, '-', ' ');
     return words;

@@ -21,14 +21,17 @@ namespace {
 using interaction::Commands;
 using interaction::NamedMark;
 
+constexpr const char* const kOverTime = "over time";
+constexpr const char* const kKeep = "keep";
+
 /// The place that the user picked, as much of it as there is room for.
 void mark_words(const PanelModel& model, float width, Commands& commands) {
     const interaction::MarkedPoint& point = *model.asked.mark.point;
     constexpr const char* kHere = "isovalue here";
-    constexpr float kFurther = 50.0f; // the button that keeps it
     const ImGuiStyle& style = ImGui::GetStyle();
     const float buttons = ImGui::CalcTextSize(kHere).x + 2 * style.FramePadding.x +
-                          ImGui::GetFrameHeight() + 2 * style.ItemSpacing.x + kFurther;
+                          ImGui::GetFrameHeight() + 4 * style.ItemSpacing.x +
+                          button_width(kOverTime) + button_width(kKeep);
     const auto fits = [&](const std::string& words) {
         return ImGui::CalcTextSize(words.c_str()).x + buttons <= width;
     };
@@ -79,11 +82,21 @@ Commands way_to_mark(const PanelModel& model, const interaction::MarkedPoint& po
 }
 
 void mark_lines(const PanelModel& model, float width, Commands& commands) {
+    const float right = ImGui::GetCursorScreenPos().x + width;
     mark_words(model, width, commands);
+    const interaction::CurveDrawer& curves = model.asked.curves;
+    go_on_within(right, button_width(kOverTime));
+    if (ImGui::Button(kOverTime)) {
+        const bool there = curves.shown && curves.measure == kMarkCurve;
+        commands.curves = curves;
+        commands.curves->shown = !there;
+        commands.curves->measure = kMarkCurve;
+    }
+    tip("the value at the mark as a curve, and how far the surfaces are from it at each step");
     if (!has_loose_mark(model.asked) || model.asked.marks.size() >= interaction::kMostMarks)
         return;
-    ImGui::SameLine();
-    if (ImGui::Button("keep"))
+    go_on_within(right, button_width(kKeep));
+    if (ImGui::Button(kKeep))
         commands.marks = with_mark(model.asked.marks, *model.asked.mark.point, model.info);
     tip("keep this mark, with a name, beside the next ones: in the list of objects");
 }

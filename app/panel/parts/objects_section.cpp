@@ -145,7 +145,8 @@ void objects_section(const PanelModel& model, Commands& commands) {
     for (const ItemKind& kind : item_kinds())
         lines += kind.count(model);
     ImGuiStorage& memory = *ImGui::GetStateStorage();
-    const bool scrolls = lines > kMostItemLines;
+    // The page in the room is scrolled as a whole.
+    const bool scrolls = lines > kMostItemLines && model.place != PanelPlace::in_room;
     const float height = kItemSide + ImGui::GetStyle().ItemSpacing.y;
     if (scrolls) // from the edge on, where the bar of what is picked stands
         ImGui::BeginChild("lines", {0.0f, (static_cast<float>(kMostItemLines) + 0.5f) * height});

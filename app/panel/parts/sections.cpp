@@ -12,6 +12,7 @@
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/surfaces_section.h"
 #include "app/panel/parts/theme.h"
+#include "app/panel/parts/time_track.h"
 #include "app/panel/parts/view_cube.h"
 #include "app/scene/look.h"
 #include "app/text.h"
@@ -329,7 +330,7 @@ void section_column(const PanelModel& model, PanelPages& pages, Commands& comman
 }
 
 void section_pages(const PanelModel& model, PanelPages& pages, Commands& commands,
-                   std::optional<std::size_t>& pointed) {
+                   std::optional<std::size_t>& pointed, float below) {
     constexpr int kFirst = 2; // the surfaces
     int* const page = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("page"), kFirst);
     if (pointed && *pointed < kSections)
@@ -349,13 +350,13 @@ void section_pages(const PanelModel& model, PanelPages& pages, Commands& command
     }
     ImGui::Dummy({0.0f, 1.0f});
     const Section& section = sections()[static_cast<std::size_t>(*page)];
-    ImGui::PushID(section.name);
+    ImGui::BeginChild(section.name, {0.0f, -below});
     section.lay_out(model, pages, commands);
-    ImGui::PopID();
     if (model.place == PanelPlace::in_room && section.lay_out == view_section &&
         ImGui::CollapsingHeader("hands"))
         controls_of(std::array{interaction::DeviceKind::hands}, model.controls);
     complaints(model); // below all controls, so that it does not move them
+    ImGui::EndChild();
 }
 
 } // namespace isochron::app

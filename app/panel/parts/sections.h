@@ -30,8 +30,9 @@ const std::array<Section, kSections>& sections();
 void section_column(const PanelModel& model, PanelPages& pages, interaction::Commands& commands,
                     const std::optional<std::size_t>& pointed = {});
 /// One of them, which the user chooses from a line of names: for panels without room for all.
-/// @param pointed section that is chosen now
+/// It is scrolled where it has more lines than fit; the names stay.
+/// @param pointed section that is chosen now @param below height that is left free below it
 void section_pages(const PanelModel& model, PanelPages& pages, interaction::Commands& commands,
-                   std::optional<std::size_t>& pointed);
+                   std::optional<std::size_t>& pointed, float below);
 
 } // namespace isochron::app

@@ -15,7 +15,7 @@ from numpy.typing import DTypeLike, NDArray
 from . import _native
 from ._arguments import (
     PROFILE, Crop, Isovalues, Number, Steps, T, Time,
-    clip_plane, crop_box, least_cells, moment, number, path, several, span, time_number, whole,
+    clip_plane, crop_box, least_cells, moment, number, numbers, path, several, span, time_number, whole,
 )  # fmt: skip
 from ._elsewhere import RUN, unknown
 from ._errors import ArgumentError, Error, PlaceError, in_parameters, missing
@@ -317,6 +317,7 @@ class Run:
         crop: Crop | None = None,
         clip: Sequence[Number] | None = None,
         dust: SupportsIndex = 0,
+        place: Sequence[Number] | None = None,
     ) -> dict[str, float]:
         """Numbers of the surface: area, volume, pieces and more, by their names.
 
@@ -329,10 +330,12 @@ class Run:
         clip: (x, y, z, nx, ny, nz): only what is not beyond the plane in this point, where the normal points to: the
             surface, cut without a cap, and volumes, exactly.
         dust: leaves out the connected pieces of fewer active cells.
+        place: (x, y, z), for `distance`: from there to the nearest point of the surface.
         """
         at, box = moment(self, step, fraction, time), crop_box(crop, self.shape[1:])
         of, value, plane, least = self._array(array), number(isovalue, "isovalue"), clip_plane(clip), least_cells(dust)
-        found, _ = of.measure(*at, value, on_surface, False, box, plane, least)
+        start = None if place is None else numbers(place, "place", 3)
+        found, _ = of.measure(*at, value, on_surface, False, box, plane, least, start)
         return dict(zip(_measures(), found))
 
     def measures(
@@ -345,13 +348,16 @@ class Run:
         crop: Crop | None = None,
         clip: Sequence[Number] | None = None,
         dust: SupportsIndex = 0,
+        place: Sequence[Number] | None = None,
     ) -> NDArray[np.void]:
         """`measure` of each step: a structured array with the fields step, time and those of `measure`.
 
         steps: one, a slice or a range; None: all.
         """
         first, last, stride = span(slice(None) if steps is None else steps, "steps", len(self))
-        how: dict[str, Any] = {"array": array, "on_surface": on_surface, "crop": crop, "clip": clip, "dust": dust}
+        how: dict[str, Any] = {
+            "array": array, "on_surface": on_surface, "crop": crop, "clip": clip, "dust": dust, "place": place,
+        }  # fmt: skip
         rows = [
             (step, float(self.times[step]), *self.measure(isovalue, step, **how).values())
             for step in range(first, last + 1, stride)
@@ -380,7 +386,7 @@ class Run:
         """
         at, box = moment(self, step, fraction, time), crop_box(crop, self.shape[1:])
         of, value, plane, least = self._array(array), number(isovalue, "isovalue"), clip_plane(clip), least_cells(dust)
-        _, rows = of.measure(*at, value, None, True, box, plane, least)
+        _, rows = of.measure(*at, value, None, True, box, plane, least, None)
         place = (np.float64, 3)
         kind = np.dtype([
             ("triangles", np.float64), ("area", np.float64), ("volume", np.float64), ("euler", np.float64),

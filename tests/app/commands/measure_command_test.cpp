@@ -85,6 +85,24 @@ TEST_F(MeasureCommand, MeasuresBothSidesOfAPlane) {
     EXPECT_THAT(wrong.err, HasSubstr("--clip 3 3 3 0 0 0: expected a point on the plane"));
 }
 
+TEST_F(MeasureCommand, MeasuresTheDistanceFromAPlace) {
+    build();
+    const auto rows = [&](const char* more) {
+        const ChildResult run = measure(as_words(std::string("--isovalue 0.1 --json ") + more));
+        EXPECT_EQ(run.status, 0) << run.err;
+        return nlohmann::json::parse(run.out);
+    };
+    const auto far = rows("--measure distance --from 100 3 3");
+    EXPECT_EQ(far.at("rows").size(), kSteps);
+    EXPECT_EQ(far.at("rows")[0].size(), 5u) << "beside step, fraction, time and isovalue";
+    for (const auto& row : far.at("rows"))
+        EXPECT_GT(row.at("distance").get<double>(), 80);
+    EXPECT_FALSE(rows("").at("rows")[0].contains("distance"));
+    const ChildResult wrong = measure(as_words("--isovalue 0.1 --measure distance"));
+    EXPECT_NE(wrong.status, 0);
+    EXPECT_THAT(wrong.err, HasSubstr("--measure distance: needs --from X Y Z"));
+}
+
 TEST_F(MeasureCommand, PiecesAddUpToTheSurface) {
     build();
     const auto rows_of = [&](const std::vector<std::string>& more) {

@@ -210,7 +210,7 @@ TEST_F(SurfaceMakerTest, BetweenStepsFirstCrossingsAreThoseOfThePicture) {
             index::extract_from(file_, std::nullopt, index::Shading::cells)(shown, {});
         const index::CellMesh& mesh = *picture->surfaces.front().mesh;
         PercentileRange none;
-        const ColorScale scale = *color_scale(state_, *file_, picture, none);
+        const ColorScale scale = *color_scale(state_, *file_, {picture}, none);
         const auto map = colors_of(scale);
         ASSERT_EQ(ply.values.size(), mesh.vertices.size());
         ASSERT_EQ(mesh.colors.size(), mesh.vertices.size());

@@ -66,6 +66,20 @@ TEST_F(CurveDrawerTest, ShowsTheNumbersOfThePresentStep) {
     EXPECT_TRUE(says("2007 mm^3"));
     EXPECT_TRUE(says("border edges"));
     EXPECT_FALSE(says("greatest")) << "there is no array on the surface";
+    EXPECT_FALSE(says("mark to surface"));
+    asked_.mark.point.emplace();
+    EXPECT_TRUE(says("mark to surface")) << "a distance";
+}
+
+TEST_F(CurveDrawerTest, OpensFromTheLineOfTheMark) {
+    asked_.curves = {};
+    asked_.mark.point.emplace();
+    const interaction::Commands commands = click_word("over time");
+    ASSERT_TRUE(commands.curves);
+    EXPECT_TRUE(commands.curves->shown);
+    EXPECT_EQ(commands.curves->measure, kMarkCurve);
+    asked_.curves = *commands.curves;
+    EXPECT_EQ(click_word("over time").curves->shown, false) << "and closes them again";
 }
 
 TEST_F(CurveDrawerTest, PlotsTheValuesAlongTheRulerAndMarksWhereItIsPressed) {

@@ -1,6 +1,7 @@
 // The list of what is in the picture: its table of kinds, its lines on the panel, and in the search.
 #include "app/panel/item_table.h"
 
+#include "app/panel/panel_in_room.h"
 #include "app/panel/search_table.h"
 #include "interaction/navigation/key_frames.h"
 #include "interaction/navigation/navigation.h"
@@ -50,6 +51,8 @@ class Objects : public LayerTest {
                 .data = data_,
                 .asked = asked_,
                 .frame = report_,
+                .models = {.lines = {{.words = "12 triangles",
+                                      .box = {{glm::dvec3(2, 0, 0), glm::dvec3(6, 3, 3)}}}}},
                 .controls = controls_,
                 .head = head_};
     }
@@ -192,9 +195,11 @@ TEST_F(Objects, OutOfSightAreBroughtIntoViewByTheirLinesAndInSightStay) {
     data_.cells = {4, 4, 4};
     data_.physical_from_box = glm::dmat4(glm::dmat3(4.0));
     head_ = head;
-    for (const std::string_view name : {"slice", "clip", "mark", "ruler"}) {
+    for (const std::string_view name : {"slice", "clip", "model", "piece", "mark", "ruler"}) {
         const ItemKind& kind = this->kind(name);
         for (std::size_t i = 0; i < kind.count(model()); ++i) {
+            if (kind.places(model(), i).empty()) // dust lies nowhere
+                continue;
             SCOPED_TRACE(testing::Message() << name << i);
             asked_.room_from_physical = {{0.5, 1.0, 3.0}, {1, 0, 0, 0}, 0.1}; // behind the head
             const double scale = asked_.room_from_physical.scale;
@@ -255,9 +260,11 @@ TEST_F(Objects, HaveLinesInTheSearchByTheirNames) {
     EXPECT_EQ(by_name["mark=tail"]->words, "hide mark tail 5 1/s");
     EXPECT_FALSE(by_name["mark=tail"]->commands.marks->at(1).point.shown);
     EXPECT_EQ(by_name["objects"]->value, "15 of 17 shown");
-    for (const char* name : {"surface=1", "slice=2", "clip=box", "model=hull.stl", "ghosts=all",
-                             "piece=1", "ruler=2", "curve=drawer", "see_ruler=1", "see_clip=box"})
+    for (const char* name :
+         {"surface=1", "slice=2", "clip=box", "model=hull.stl", "ghosts=all", "piece=1", "ruler=2",
+          "curve=drawer", "see_ruler=1", "see_clip=box", "see_model=hull.stl", "see_piece=2"})
         EXPECT_TRUE(by_name.contains(name)) << name;
+    EXPECT_FALSE(by_name.contains("see_piece=3")) << "dust lies nowhere";
 }
 
 TEST_F(Objects, AreLinesOfThePanelWhoseWordsPickAndGo) {
@@ -268,6 +275,47 @@ TEST_F(Objects, AreLinesOfThePanelWhoseWordsPickAndGo) {
     EXPECT_EQ(picked.slices->picked, 0u);
     const Commands chosen = click_word("12 1/s");
     EXPECT_EQ(chosen.picked, 1u);
+}
+
+/// On the panel in the room the names of the pages and the lines of the tools keep their places; what is
+/// between them, and lines for which there is no room, come by the stick.
+TEST_F(Objects, InTheRoomAreScrolledBetweenTheNamesOfThePagesAndTheLinesOfTheTools) {
+    asked_.marks.clear();
+    const glm::ivec2 size(PanelInRoom::kPixels);
+    const auto at = [&](const char* word) {
+        return place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), word);
+    };
+    const auto lay_out = [&](std::optional<glm::vec2> pointed, bool pressed, float notches) {
+        PanelModel room = model();
+        room.place = PanelPlace::in_room;
+        layer_.point(pointed, pressed, notches);
+        layer_.lay_out(size, room, time_ += interaction::Seconds(0.1));
+    };
+    const auto scroll_down = [&](glm::vec2 pointed) {
+        for (int i = 0; i < 12; ++i)
+            lay_out(pointed, false, i < 8 ? -1.0f : 0.0f);
+    };
+    for (int i = 0; i < 4; ++i)
+        lay_out({}, false, 0);
+    const auto first = at("clip across");
+    ASSERT_TRUE(first) << "the first line of the tools";
+    EXPECT_FALSE(at("keep")) << "the line of the mark, for which there is no room";
+    EXPECT_FALSE(at("pieces")) << "the page's last row";
+    scroll_down({first->x, first->y});
+    EXPECT_TRUE(at("keep"));
+    EXPECT_FALSE(at("clip across"));
+    scroll_down({first->x, first->y - 24}); // below the histogram, which the stick zooms
+    EXPECT_TRUE(at("pieces"));
+    EXPECT_FALSE(at("log")) << "what the page began with";
+    EXPECT_TRUE(at("Surfaces")) << "its name stays";
+    EXPECT_TRUE(at("keep"));
+    asked_.slices = {};
+    asked_.clip = {};
+    asked_.clip_box = {};
+    asked_.rulers = {};
+    for (int i = 0; i < 4; ++i)
+        lay_out({}, false, 0);
+    EXPECT_TRUE(at("keep")) << "one line is seen whole";
 }
 
 TEST_F(Objects, AllStandInAListThatScrolls) {

@@ -82,6 +82,18 @@ class Measures(SeriesTest):
             with self.assertRaisesRegex(isochron.Error, "dust: expected"):
                 run.measure(isovalue, 1, dust=wrong)
 
+    def test_of_the_distance_from_a_place_are_those_to_the_nearest_point(self):
+        run, isovalue = self.run_, float(np.median(self.run_.values(1)))
+        points, _ = run.mesh(isovalue, 1, dtype=np.float64)
+        place = points[3] + (40.0, -30.0, 20.0)
+        nearest = np.linalg.norm(points - place, axis=1).min()
+        found = run.measures(isovalue, 1, place=place)["distance"][0]
+        self.assertLessEqual(found, nearest * (1 + 1e-6))
+        self.assertGreater(found, nearest - 2 * max(run.spacing))
+        self.assertTrue(np.isnan(run.measure(isovalue, 1)["distance"]))
+        with self.assertRaisesRegex(isochron.Error, "place: expected 3 numbers"):
+            run.measure(isovalue, 1, place=(1, 2))
+
     def test_along_a_line_are_those_of_the_vertices(self):
         run = self.run_
         nz, _, nx = run.shape[1:]

@@ -204,25 +204,38 @@ TEST(ColorScales, OfOneValueSayIt) {
 
 TEST(ColorScales, SharesOfWhatIsShownMakeARange) {
     index::Extraction shown;
-    EXPECT_FALSE(range_of_shares(shown, {0, 1}, {0.02, 0.98}));
+    const auto in_shares = [&](const std::array<double, 2>& whole) {
+        return range_of_shares({std::make_shared<index::Extraction>(shown)}, whole, {0.02, 0.98});
+    };
+    EXPECT_FALSE(in_shares({0, 1}));
     for (std::uint16_t i = 0; i <= 1000; ++i) // a tenth of the range, and one far out
         shown.colors.push_back(i == 1000 ? 8190 : static_cast<std::uint16_t>(819 * i / 1000));
     shown.colors.insert(shown.colors.end(), 500, index::kNoColor);
-    const auto range = range_of_shares(shown, {100, 200}, {0.02, 0.98});
+    const auto range = in_shares({100, 200});
     ASSERT_TRUE(range);
     EXPECT_NEAR((*range)[0], 100.2, 0.05);
     EXPECT_NEAR((*range)[1], 109.8, 0.05);
     // The range for a set is sorted out once, and anew for another set or other percentiles.
     PercentileRange cached;
     const auto set = std::make_shared<index::Extraction>(shown);
-    EXPECT_EQ(cached.of(set, {100, 200}, {2, 98}), range);
-    EXPECT_EQ(cached.of(set, {100, 200}, {2, 98}), range);
-    EXPECT_NEAR(cached.of(set, {100, 200}, {50, 98}).value()[0], 105, 0.05);
-    EXPECT_NEAR(cached.of(set, {0, 100}, {50, 98}).value()[0], 5, 0.05);
-    EXPECT_FALSE(cached.of(nullptr, {0, 100}, {50, 98}));
+    EXPECT_EQ(cached.of({set}, {100, 200}, {2, 98}), range);
+    EXPECT_EQ(cached.of({set}, {100, 200}, {2, 98}), range);
+    EXPECT_NEAR(cached.of({set}, {100, 200}, {50, 98}).value()[0], 105, 0.05);
+    EXPECT_NEAR(cached.of({set}, {0, 100}, {50, 98}).value()[0], 5, 0.05);
+    EXPECT_FALSE(cached.of({}, {0, 100}, {50, 98}));
+    // Beside it as many vertices of a further surface, all at the upper end.
+    index::CellMesh mesh;
+    mesh.colors.assign(1001, index::kFineColorSteps);
+    mesh.colors.insert(mesh.colors.end(), 70, index::kNoFineColor);
+    const auto further = std::make_shared<index::InstantSurfaces>();
+    further->meshes = {nullptr, std::make_shared<const index::CellMesh>(mesh)};
+    const auto wider = cached.of({set, {further}}, {100, 200}, {2, 98});
+    ASSERT_TRUE(wider);
+    EXPECT_NEAR((*wider)[0], 100.4, 0.05);
+    EXPECT_EQ((*wider)[1], 200);
     shown.colors.assign(10, 77);
-    EXPECT_FALSE(cached.of(std::make_shared<index::Extraction>(shown), {0, 100}, {50, 98}));
-    EXPECT_FALSE(range_of_shares(shown, {0, 1}, {0.02, 0.98})) << "one value alone";
+    EXPECT_FALSE(cached.of({std::make_shared<index::Extraction>(shown)}, {0, 100}, {50, 98}));
+    EXPECT_FALSE(in_shares({0, 1})) << "one value alone";
 }
 
 TEST(Ticks, OfLogarithmsArePowersOfTenOrPartsOfThem) {

@@ -170,6 +170,7 @@ TEST_F(CurveMakerTest, HasTheNumbersOfIsochronMeasure) {
     const CurveSubject place{.array = file_, .place = glm::dvec3(3, 4, 2)};
     CurveSubject boxed = surface(-0.1);
     boxed.box = index::VertexBox{{1, 2, 0}, {6, 7, 4}};
+    boxed.from = glm::dvec3(3, 4, 2);
     maker.update(all_of({surface(0.05), cut, surface(-0.1), place, boxed}, 2));
     maker.finish();
     const std::vector<StepCurvePtr> curves = maker.curves();
@@ -178,13 +179,13 @@ TEST_F(CurveMakerTest, HasTheNumbersOfIsochronMeasure) {
         for (const StepCurvePtr& curve : {curves[0], curves[1], curves[2], curves[4]}) {
             index::MeasureWishes wishes;
             if (curve == curves[4])
-                wishes.box = index::VertexBox{{1, 2, 0}, {6, 7, 4}};
+                wishes = {.box = {{{1, 2, 0}, {6, 7, 4}}}, .from = {{3, 4, 2}}};
             if (curve->subject.clip)
                 wishes.clip = {{4, 3, 3}, {0.6, 0, 0.8}};
             const auto expected =
                 measuring.measure({Instant(step), curve->subject.isovalue}, wishes)->values;
             for (std::size_t i = 0; i < expected.size(); ++i)
-                if (index::measures()[i].unit == index::MeasureUnit::value)
+                if (!is_measured(index::measures()[i], false, wishes.from.has_value()))
                     EXPECT_TRUE(std::isnan(curve->values[i][step]));
                 else
                     EXPECT_EQ(curve->values[i][step], expected[i]) << index::measures()[i].name;

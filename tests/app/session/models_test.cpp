@@ -157,7 +157,9 @@ TEST_P(SessionModels, OfOthersAreOpenedInTheirFoldersAlone) {
     EXPECT_EQ(opened(), 0u);
     EXPECT_TRUE(session.models().listed(session.state())[0].refused);
     EXPECT_EQ(session.models().allow(outside), outside); // as its eye in the panel does
-    EXPECT_EQ(opened(), 1u);
+    ASSERT_EQ(opened(), 1u);
+    const auto seen = session.models().shown(session.state());
+    EXPECT_EQ(session.models().listed(session.state())[0].box, index::bounds(*seen[0].mesh));
     session.models().add_folder(elsewhere.path());
     EXPECT_EQ(session.models().allow(folder_.path() / "deep/hull.obj"), "deep/hull.obj");
 }

@@ -237,7 +237,80 @@ TEST_P(SessionFurther, HaveTheColorsOfAnArraysValuesOnThemWhereSurfacesHaveThem)
     state.picked = 1;
     EXPECT_EQ(shown_request(state, both_).values->array, color_array(state, *both_));
     state.coloring.by = interaction::ColorBy::first_crossing;
-    EXPECT_FALSE(shown_request(state, both_).values) << "those are of the shown array";
+    ASSERT_TRUE(shown_request(state, both_).values);
+    EXPECT_FALSE(shown_request(state, both_).values->array) << "times";
+}
+
+TEST_P(SessionFurther, CountAmongThePercentilesOfTheScale) {
+    Session session(small_config(), both_, *context_);
+    const auto range = [&](Commands commands) {
+        commands.coloring = interaction::Coloring{.by = interaction::ColorBy::value};
+        commands.coloring->array = both_->info().array;
+        commands.coloring->percentiles = {2.0, 98.0};
+        frame(session, commands);
+        frame(session);
+        return session.scale()->range;
+    };
+    const std::array<double, 2> whole{both_->stats().low, both_->stats().high};
+    EXPECT_EQ(range(asking({{.isovalue = 6}})), whole) << "all of it lies at 6: that is no range";
+    const auto both = range(of_both(6, 30));
+    EXPECT_GT(both[0], whole[0] + 1);
+    EXPECT_LT(both[0], 3) << "what is near to the middle reaches further out";
+    EXPECT_NEAR(both[1], 6, 0.01);
+}
+
+TEST_P(SessionFurther, HaveTheTimesOfTheirOwnFirstCrossings) {
+    constexpr double kIsovalue = 60;
+    Session session(small_config(stereo::StereoMode::mono), both_, *context_);
+    MovingSphere sphere(6);
+    NearnessSeries nearness(sphere.info());
+    std::vector<std::vector<std::byte>> values(6, std::vector<std::byte>(kEdge * kEdge * kEdge));
+    for (std::size_t step = 0; step < 6; ++step)
+        nearness.read(step, values[step]);
+    const auto is_active = [&](const glm::ivec3& cell, std::size_t step) {
+        int above = 0;
+        for (int i = 0; i < 8; ++i) {
+            const glm::ivec3 at = cell + glm::ivec3(i & 1, i >> 1 & 1, i >> 2);
+            const int place = at.x + int(kEdge) * (at.y + int(kEdge) * at.z);
+            above += std::to_integer<int>(values[step][std::size_t(place)]) >= kIsovalue;
+        }
+        return above > 0 && above < 8;
+    };
+    Commands commands = of_both(6, kIsovalue, 1);
+    commands.coloring = interaction::Coloring{.by = interaction::ColorBy::first_crossing};
+    for (const std::uint32_t step : {4u, 2u}) {
+        interaction::merge(commands, at_instant(Instant(step)));
+        frame(session, commands);
+        frame(session);
+        const index::CellMesh& mesh = *session.further().shown().at(0)->meshes.back();
+        ASSERT_EQ(mesh.colors.size(), mesh.vertices.size());
+        std::array<int, 6> seen{};
+        for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+            const index::MeshVertex& vertex = mesh.vertices[i];
+            const auto time =
+                std::size_t(std::lround(mesh.colors[i] / 65534.0 * 5)); // step of a cell
+            bool is_first = false;
+            for (int around = 0; around < 4; ++around) {
+                glm::ivec3 cell(vertex.x, vertex.y, vertex.z);
+                cell[(vertex.axis + 1) % 3] -= around & 1;
+                cell[(vertex.axis + 2) % 3] -= around >> 1;
+                std::size_t first = 0;
+                while (first < 6 && !is_active(cell, first))
+                    ++first;
+                is_first = is_first || first == time;
+            }
+            EXPECT_TRUE(is_first) << i;
+            ++seen.at(time);
+        }
+        for (std::uint32_t each = 0; each < 6; ++each)
+            EXPECT_EQ(seen[each] > 20, each <= step) << step << ' ' << each;
+    }
+    const auto timed = session.outputs().display().read_window().rgba;
+    commands.isosurfaces->back().color = {1, 0, 0};
+    frame(session, commands);
+    frame(session);
+    EXPECT_TRUE(session.outputs().display().read_window().rgba == timed)
+        << "a color of its own counts no longer";
 }
 
 TEST_P(SessionFurther, AreMadeWhileLiveFramesGoOnAndArriveExactly) {

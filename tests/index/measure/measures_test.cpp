@@ -548,11 +548,57 @@ TEST_F(MeasuresTest, LeftByAPlaneThroughVerticesAreThoseInTheBoxOnThatSide) {
         for (const Measure& each : measures()) {
             SCOPED_TRACE(each.name);
             const double expected = value_of(boxed, each.name);
-            if (each.unit != MeasureUnit::value) {
+            if (is_measured(each, false, false)) {
                 EXPECT_NEAR(value_of(left, each.name), expected, 1e-9 * std::abs(expected));
             }
         }
     }
+}
+
+TEST_F(MeasuresTest, DistancesAreThoseOfTheNearestOfManyPointsOnTheSurface) {
+    for (int round = 0; round < 6; ++round) {
+        const Vertices n{11, 9, 8};
+        const TestField field(n, 1, ValueType::f32, turbulence(random_));
+        const Grid grid = placed(n, true, random_);
+        const auto file = indexed_at(field.view(), grid);
+        const Query query{Instant(0), middle(field.view())};
+        std::uniform_real_distribution<double> any(-0.3, 1.3);
+        const glm::dvec3 from =
+            grid.physical(glm::dvec3(any(random_) * 10, any(random_) * 8, any(random_) * 7));
+        const double found =
+            value_of(*SurfaceMeasures(file).measure(query, {.from = from}), "distance");
+        const SurfaceMesh mesh = mesh_of(file, query);
+        const auto at = [&](std::uint32_t corner) {
+            const auto& [x, y, z] = mesh.points[corner];
+            return glm::dvec3(x, y, z);
+        };
+        constexpr int kParts = 40; // along each side
+        double nearest = kInfinity, longest = 0;
+        for (const auto& [a, b, c] : mesh.triangles) {
+            longest = std::max({longest, glm::distance(at(a), at(b)), glm::distance(at(a), at(c))});
+            for (int i = 0; i <= kParts; ++i)
+                for (int k = 0; i + k <= kParts; ++k) {
+                    const glm::dvec3 point = at(a) + (at(b) - at(a)) * (i / double{kParts}) +
+                                             (at(c) - at(a)) * (k / double{kParts});
+                    nearest = std::min(nearest, glm::distance(from, point));
+                }
+        }
+        EXPECT_LE(found, nearest + 1e-3 * (1 + nearest));
+        EXPECT_GE(found, nearest - longest / kParts);
+        EXPECT_TRUE(std::isnan(value_of(*SurfaceMeasures(file).measure(query), "distance")));
+    }
+    // From the middle of the plane x = 4.5, less the side of it that a plane cuts away.
+    const TestField field({10, 9, 8}, 1, ValueType::f32,
+                          [](double x, double, double, double) { return x; });
+    SurfaceMeasures measuring(indexed(folder_, field.view()));
+    const auto distance = [&](double isovalue, const std::optional<CutPlane>& clip) {
+        return value_of(
+            *measuring.measure({Instant(0), isovalue}, {.clip = clip, .from = {{1, 4, 3}}}),
+            "distance");
+    };
+    EXPECT_NEAR(distance(4.5, {}), 3.5, 1e-6);
+    EXPECT_NEAR(distance(4.5, CutPlane{{0, 2, 0}, {0, 1, 0}}), std::hypot(3.5, 2.0), 1e-6);
+    EXPECT_TRUE(std::isnan(distance(300, {}))) << "no surface";
 }
 
 TEST_F(MeasuresTest, LeftOfABallByAPlaneAreThoseOfItsCap) {

@@ -27,7 +27,8 @@ class Lines(SeriesTest):
         self.expect_line_of(self.query(name="none.isochron"), lambda: isochron.open("none.isochron"))
 
     def test_a_file_that_is_no_index(self):
-        self.expect_line_of(self.query(name="t0.vti"), lambda: isochron.open("t0.vti"))
+        self.expect_line_of(self.query(name="t0.vti"), lambda: isochron.open("t0.vti"),
+                            {"`isochron build t0.vti -o t0.isochron`": "isochron.build('t0.vti', 't0.isochron')"})
 
     def test_an_index_that_is_cut_off(self):
         with open("run.isochron", "rb") as file:

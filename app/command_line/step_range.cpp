@@ -31,7 +31,7 @@ std::vector<std::uint32_t> steps_of(const std::string& text, const std::string& 
     if (numbers.empty() || numbers.size() > 3)
         throw UsageError("{}: expected a step, or FIRST:LAST or FIRST:LAST:STRIDE with both ends "
                          "included, got {}",
-                         option, text);
+                         option, text.empty() ? "nothing" : text);
     const std::uint64_t first = numbers[0], last = numbers.size() > 1 ? numbers[1] : first;
     const std::uint64_t stride = numbers.size() > 2 ? numbers[2] : 1;
     if (first > last || last >= steps || stride == 0)
@@ -43,9 +43,9 @@ std::vector<std::uint32_t> steps_of(const std::string& text, const std::string& 
     return named;
 }
 
-std::vector<std::uint32_t> steps_or_all(const std::string& text, const std::string& option,
-                                        std::size_t steps) {
-    return steps_of(text.empty() ? fmt::format("0:{}", steps - 1) : text, option, steps);
+std::vector<std::uint32_t> steps_or_all(const std::optional<std::string>& text,
+                                        const std::string& option, std::size_t steps) {
+    return steps_of(text.value_or(fmt::format("0:{}", steps - 1)), option, steps);
 }
 
 } // namespace isochron::app

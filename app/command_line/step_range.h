@@ -21,8 +21,8 @@ std::optional<std::vector<std::uint64_t>> whole_numbers(std::string_view text,
 /// @throws UsageError: it cannot be read, or names a step that is not there
 std::vector<std::uint32_t> steps_of(const std::string& text, const std::string& option,
                                     std::size_t steps);
-/// As `steps_of`; an empty text stands for all steps.
-std::vector<std::uint32_t> steps_or_all(const std::string& text, const std::string& option,
-                                        std::size_t steps);
+/// As `steps_of`; all steps without a text.
+std::vector<std::uint32_t> steps_or_all(const std::optional<std::string>& text,
+                                        const std::string& option, std::size_t steps);
 
 } // namespace isochron::app

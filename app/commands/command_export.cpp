@@ -38,7 +38,8 @@ namespace fs = std::filesystem;
 
 struct ExportArguments {
     fs::path file;
-    std::string out, format, steps, precision = "single", color_map = "viridis";
+    std::optional<std::string> steps;
+    std::string out, format, precision = "single", color_map = "viridis";
     std::vector<double> isovalues, range;
     std::optional<std::string> array, color_by, unit;
     MeshCuts cuts;
@@ -48,7 +49,7 @@ struct ExportArguments {
 };
 
 /// @param has what the formats have; null: all formats
-std::vector<std::string> format_names(bool index::SurfaceFormat::*has = nullptr) {
+std::vector<std::string> format_names(bool index::SurfaceFormat::* has = nullptr) {
     std::vector<std::string> names;
     for (const index::SurfaceFormat& format : index::surface_formats())
         if (!has || format.*has)
@@ -149,7 +150,7 @@ void check(const ExportArguments& arguments, const index::SurfaceFormat& format)
     struct Need {
         const char* option;
         bool given;
-        bool index::SurfaceFormat::*held;
+        bool index::SurfaceFormat::* held;
     };
     for (const Need& need :
          {Need{"--precision double", arguments.precision == "double",

@@ -33,7 +33,7 @@ using Json = nlohmann::ordered_json;
 struct MeasureArguments {
     std::filesystem::path file, out;
     std::vector<double> isovalues;
-    std::string steps;
+    std::optional<std::string> steps;
     std::uint32_t fraction = 0, dust = 0;
     std::vector<std::string> measures;
     std::optional<std::string> array, on_surface, crop;

@@ -168,13 +168,13 @@ void check_output(const MovieOptions& options) {
 /// Options that only one kind of source has. @throws UsageError
 void check_source(const MovieOptions& options, bool of_index) {
     const SeriesMovie& series = options.series;
-    if (!of_index && (series.isovalue || !series.steps.empty() || series.between || series.turn ||
+    if (!of_index && (series.isovalue || series.steps || series.between || series.turn ||
                       !series.film.empty() || !series.keys.empty()))
         throw UsageError(
             "{}: a recording has its own view, isovalues, steps and moments between them; "
             "--isovalue, --steps, --between, --keys, --film and --turn go with an index",
             options.recording);
-    if (!series.keys.empty() && (series.turns() || !series.film.empty() || !series.steps.empty()))
+    if (!series.keys.empty() && (series.turns() || !series.film.empty() || series.steps))
         throw UsageError("--keys: the keys say where to look and which steps pass; --film, --turn "
                          "and --steps go without them");
     if (series.length && !series.turns())

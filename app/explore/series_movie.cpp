@@ -26,15 +26,15 @@ namespace {
 
 /// Sets what plays: `0:63:4` is every fourth step from 0 to 63.
 void play_steps(const SeriesMovie& movie, std::size_t steps, interaction::Commands& state) {
-    if (movie.steps.empty())
+    if (!movie.steps)
         return;
-    const std::vector<std::uint32_t> chosen = steps_of(movie.steps, "--steps", steps);
+    const std::vector<std::uint32_t> chosen = steps_of(*movie.steps, "--steps", steps);
     state.play_range = interaction::StepRange{chosen.front(), chosen.back()};
     interaction::PlaybackState playback = state.playback.value_or(interaction::PlaybackState{});
     playback.every = chosen.size() > 1 ? chosen[1] - chosen[0] : 1;
     if (playback.every > interaction::kMostSkipped)
         throw UsageError("--steps: a movie takes every {}th step at most, got {}",
-                         interaction::kMostSkipped, movie.steps);
+                         interaction::kMostSkipped, *movie.steps);
     state.playback = playback;
 }
 
@@ -48,7 +48,7 @@ std::vector<interaction::KeyFrame> turn(const Session& session, const index::Ser
     const auto steps = steps_or_all(movie.steps, "--steps", info.steps());
     if (steps.size() > 1 && steps[1] != steps[0] + 1)
         throw UsageError("--turn: all steps pass, expected --steps FIRST:LAST, got {}",
-                         movie.steps);
+                         *movie.steps);
     return interaction::turn_keys(
         session.state(), physical_center(info.grid), index::Instant(steps.front()),
         index::Instant(movie.film == "turn" ? steps.front() : steps.back()),

@@ -16,7 +16,7 @@ inline constexpr double kUsualTurn = 10; ///< length of a turn [s]
 
 struct SeriesMovie {
     std::optional<double> isovalue;     ///< none: as at the first look
-    std::string steps;                  ///< FIRST:LAST[:STRIDE]; empty: all
+    std::optional<std::string> steps;   ///< FIRST:LAST[:STRIDE]; none: all
     std::optional<std::string> between; ///< a name of BetweenSteps; none: as configured or advised
     std::string keys{};                 ///< file of keys, or session that has them; empty: none
     bool titles = false;                ///< names and texts of the keys stand over the film

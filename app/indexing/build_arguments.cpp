@@ -138,12 +138,12 @@ index::ReadOptions read_options(const BuildArguments& arguments) {
     index::ReadOptions read = arguments.read;
     if (!arguments.dims.empty())
         read.dims = {arguments.dims[0], arguments.dims[1], arguments.dims[2]};
-    if (!arguments.crop.empty())
-        read.crop = crop_of(arguments.crop);
-    if (!arguments.stride.empty())
-        read.stride = stride_of(arguments.stride);
-    if (!arguments.steps.empty())
-        read.steps = steps_of_text(arguments.steps);
+    if (arguments.crop)
+        read.crop = crop_of(*arguments.crop);
+    if (arguments.stride)
+        read.stride = stride_of(*arguments.stride);
+    if (arguments.steps)
+        read.steps = steps_of_text(*arguments.steps);
     if (!arguments.resample.empty())
         read.resample = {arguments.resample[0], arguments.resample[1], arguments.resample[2]};
     if (arguments.resample_by_cell)

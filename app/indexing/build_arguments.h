@@ -22,7 +22,7 @@ struct BuildArguments {
     std::vector<std::uint32_t> dims, resample;
     bool resample_by_cell = false; ///< by the size of the smallest cell
     std::vector<double> spacing, origin;
-    std::string crop, stride, steps; ///< as given: `0:9,0:9,5:8`, `2,2,1`, `0:20:5`
+    std::optional<std::string> crop, stride, steps; ///< as given: `0:9,0:9,5:8`, `2,2,1`, `0:20:5`
     index::BuildOptions build;
     std::string tiers, codec;
     /// Arrays to read; the first is also `read.array`. A component may stand behind the name:

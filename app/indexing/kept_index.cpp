@@ -81,7 +81,8 @@ std::string options_text(const BuildArguments& arguments) {
         key += fmt::format("dates {};", static_cast<int>(*read.dates));
     if (read.member)
         key += fmt::format("member {};", *read.member);
-    key += fmt::format("{};{};{}", arguments.crop, arguments.stride, arguments.steps);
+    key += fmt::format("{};{};{}", arguments.crop.value_or(""), arguments.stride.value_or(""),
+                       arguments.steps.value_or(""));
     return key;
 }
 
